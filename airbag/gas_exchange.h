@@ -1,0 +1,17 @@
+/* Exchange of gas and heat at constant volume over one sub-step (docs/theory.md, G17 to G20). */
+#ifndef BILLOW_GAS_EXCHANGE_H
+#define BILLOW_GAS_EXCHANGE_H
+
+#include "airbag/gas_law.h"
+
+/* Opens the exits for good once the gauge pressure reaches PPOP (not in a bag that is still flat). */
+void gas_check_pop(const GasModel *gas, GasState *state);
+
+/* In- and outflow and heat loss from time to time + span at volume state->volume and surface area; updates mass,
+ * energy, temperature, pressure and the sums of the ledger, mass_flow_out_vent and mass_flow_out_porosity by the masses
+ * that left. Mass and temperature stay positive, and a vented bag relaxes monotonically to the ambient pressure, for
+ * any span. */
+void gas_exchange(const GasModel *gas, const GasLaw *law, const Curve *curves, double time, double span, double area,
+                  GasState *state);
+
+#endif

@@ -1,0 +1,113 @@
+#!/usr/bin/python3
+"""Times the whole loop per element and cycle, by stage, and writes table (CSV, Markdown) and plot beside this file.
+
+usage: speed.py BUILD_FOLDER [--quick]
+
+Scene: a pillow of orthotropic fabric (FORM 0 with compression cut-off) filled with gas. Numbers come from summary.json;
+the best of the repeats counts. Memory is what the run's log.txt reports: model, state and buffers.
+"""
+import csv
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import stamp
+
+HERE = pathlib.Path(__file__).resolve().parent
+STAGES = ["elements", "gas", "nodes", "special", "waiting"]
+
+
+def run_child(arguments, output=None):
+    """Runs a program, its standard output to a file or nowhere."""
+    with open(output or os.devnull, "wb") as target:
+        if subprocess.run(arguments, stdout=target, check=False).returncode:
+            sys.exit(f"failed: {' '.join(arguments)}")
+
+
+def measure(build, folder, pattern, shells, threads, cycles, repeats):
+    """The best of the repeats as a row of the table."""
+    deck = f"{folder}/{pattern}-{shells}.k"
+    if not os.path.exists(deck):
+        run_child([f"{build}/make_deck", "speed", "--pattern", pattern, "--shells", str(shells), "--cycles",
+                   str(cycles)], deck)
+    best = None
+    for _ in range(repeats):
+        run_child([f"{build}/billow", "run", deck, "-o", f"{folder}/results", "-j", str(threads), "--quiet"])
+        with open(f"{folder}/results/summary.json", encoding="utf-8") as file:
+            summary = json.load(file)
+        if best is None or summary["ns_per_element_cycle"] < best["ns_per_element_cycle"]:
+            best = summary
+    log = pathlib.Path(folder, "results", "log.txt").read_text(encoding="utf-8")
+    memory = re.search(r"(\d+) bytes per element", log)
+    scale = 1e9 / (best["cycles"] * best["elements"])
+    row = {"element": "triangles" if pattern == "diagonal" else "quads 2x2", "elements": best["elements"],
+           "threads": threads, "cycles": best["cycles"], "ns_per_element_cycle": best["ns_per_element_cycle"],
+           "bytes_per_element": int(memory.group(1)) if memory else 0}
+    row.update({stage: best["timing"][stage] * scale for stage in STAGES})
+    return row
+
+
+def write_table(rows):
+    """benchmarks/speed.csv and speed.md."""
+    with open(HERE / "speed.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, fieldnames=list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    lines = ["# Speed", "", f"Nanoseconds per element and cycle of the whole time loop. {stamp.line()}.", "",
+             "Gas-filled pillow, orthotropic fabric FORM 0 with compression cut-off, no output in the loop. Stages are",
+             "those of thread 0. Memory: model, state and buffers.", "",
+             "![speed](speed.png)", "",
+             "| element | elements | threads | cycles | ns | " + " | ".join(STAGES) + " | bytes per element |",
+             "|---|---|---|---|---|" + "---|" * len(STAGES) + "---|"]
+    for row in rows:
+        stages = " | ".join(f"{row[stage]:.2f}" for stage in STAGES)
+        lines.append(f"| {row['element']} | {row['elements']} | {row['threads']} | {row['cycles']} | "
+                     f"{row['ns_per_element_cycle']:.2f} | {stages} | {row['bytes_per_element']} |")
+    (HERE / "speed.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def draw_plot(rows):
+    """benchmarks/speed.png."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure, axis = plt.subplots(figsize=(6, 4))
+    for element, colour in (("triangles", "tab:blue"), ("quads 2x2", "tab:orange")):
+        for threads, style in ((1, "-o"), (2, "--s")):
+            points = [row for row in rows if row["element"] == element and row["threads"] == threads]
+            axis.semilogx([p["elements"] for p in points], [p["ns_per_element_cycle"] for p in points], style,
+                          color=colour, label=f"{element}, {threads} thread{'s' if threads > 1 else ''}")
+    axis.set_ylim(bottom=0)
+    axis.set_xlabel("elements")
+    axis.set_ylabel("ns per element and cycle")
+    axis.grid(True, which="both", alpha=0.3)
+    axis.legend()
+    figure.tight_layout()
+    figure.savefig(HERE / "speed.png", dpi=110)
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    build, quick = sys.argv[1], "--quick" in sys.argv
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for pattern in ("diagonal", "quads"):
+            for shells in (2000, 20000) if quick else (2000, 20000, 200000):
+                for threads in (1, 2):
+                    cycles = max(20, int((4e7 if quick else 2e8) / shells / 4))
+                    row = measure(build, folder, pattern, shells, threads, cycles, 3)
+                    rows.append(row)
+                    print(f"{row['element']:10} {row['elements']:7} elements {threads} threads "
+                          f"{row['ns_per_element_cycle']:7.2f} ns", flush=True)
+    if not quick:
+        write_table(rows)
+        draw_plot(rows)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,44 @@
+/* Reference geometry of one element: natural gradients, weights, exact largest frequency. */
+#ifndef BILLOW_GEOMETRY_H
+#define BILLOW_GEOMETRY_H
+
+#include <stdbool.h>
+
+#include "elements/law.h"
+#include "solver/model.h"
+
+/* How the fibre direction 1 lies in an element (AOPT, BETA). */
+typedef struct FibreAxis {
+    enum { FIBRE_EDGE, FIBRE_VECTOR, FIBRE_CROSS } kind; /* edge n1-n2; vector projected; vector x normal */
+    double vector[3]; /* global, for the last two */
+    double angle;     /* added about the normal [rad] */
+} FibreAxis;
+
+/* Input for one element of the given kind: reference corners (corner_count x 3), thickness, mass carried by the element. */
+typedef struct ElementInput {
+    ElementKind kind;
+    const double *x;
+    double thickness, mass;
+    FibreAxis axis;
+    const FabricLaw *law; /* NULL for surfaces */
+} ElementInput;
+
+typedef enum GeometryStatus { GEOMETRY_OK, GEOMETRY_ZERO_AREA, GEOMETRY_INVERTED, GEOMETRY_NO_FIBRE } GeometryStatus;
+
+/* Number of doubles per lane for a kind and law. */
+int geometry_size(ElementKind kind, LawKind law);
+
+/* Fills the lane's constants (stride BILLOW_LANES between values, layout of elements/kernels.h); sign as given. */
+GeometryStatus geometry_fill(const ElementInput *input, double sign, double *lane);
+
+/* Area of an element: sum of its points' areas; zero for degenerate ones. x: corners (corner_count x 3). */
+double geometry_area(int corner_count, const double *x);
+
+/* Largest squared frequency of the free element with its lumped mass, membrane stiffness in the reference state (eq. E20):
+ * exact for triangles and quads. */
+double geometry_rate(const ElementInput *input);
+
+/* The largest eigenvalue of a symmetric n x n matrix (row-major, destroyed), n <= 12, by Jacobi rotations. */
+double geometry_largest_eigenvalue(int n, double *matrix);
+
+#endif

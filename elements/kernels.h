@@ -1,0 +1,74 @@
+/* The element pass: stress, corner forces, area vectors and partial sums of whole blocks.
+ *
+ * The kernels are compiled once per instruction set (elements/kernels.c); kernels_select picks one table at start. All
+ * tables give the same bits: only + - * / and square roots, no contraction, sums in a fixed order. */
+#ifndef BILLOW_KERNELS_H
+#define BILLOW_KERNELS_H
+
+#include "solver/model.h"
+
+/* Kernel constants per lane, ElementGroup.geometry. The natural gradients M = d(natural)/dX (2 x 2, row: natural
+ * direction, column: material axis) come per integration point, then the values below. Surface groups have only the sign. */
+enum {
+    GEOMETRY_M11, GEOMETRY_M12, GEOMETRY_M21, GEOMETRY_M22, /* of the first point */
+    GEOMETRY_WEIGHT,                                        /* reference area x thickness of the point [L3] */
+    GEOMETRY_POINT_SIZE,                                    /* doubles per point */
+    /* after the points: */
+    GEOMETRY_RATE = 0,   /* exact largest squared frequency of the element in its reference state [1/T2] */
+    GEOMETRY_STRESS_RATE, /* bound of the geometric stiffness: squared frequency per unit of stress [1/T2/(F/L2)] */
+    GEOMETRY_VISCOSITY,  /* DAMP x 2 / largest frequency [T] */
+    GEOMETRY_SIGN,       /* +1 or -1: orientation of the area vector; 0 in padding lanes */
+    GEOMETRY_TAIL_SIZE,
+    /* after the tail, one-point quads only: */
+    GEOMETRY_SKEW1 = 0, GEOMETRY_SKEW2, /* reference hourglass vector in natural directions */
+    GEOMETRY_HOURGLASS1, GEOMETRY_HOURGLASS2, /* hourglass moduli x weight [energy/L4] */
+    GEOMETRY_HOURGLASS_SIZE,
+};
+
+/* History per point and lane: Green strain (11, 22, 12) and second Piola-Kirchhoff stress of the last step. */
+enum { HISTORY_POINT_SIZE = 6 };
+
+/* Corner buffer per block: [corner][force x y z, area vector share x y z][lane]. */
+enum { CORNER_SIZE = 6 };
+
+/* Sums over one chunk (BILLOW_CHUNK blocks of one group). */
+typedef struct ChunkSums {
+    double volume;    /* sum of sign (x - origin).S / 3 [L3] */
+    double area;      /* [L2] */
+    double energy;    /* internal energy, or its increment for laws with a stress-work ledger */
+    double viscous;   /* increment of energy dissipated by DAMP where it is told apart (LAW_GREEN) */
+    double hourglass; /* hourglass energy */
+    double rate;      /* largest squared frequency [1/T2] */
+    double unused[2]; /* fills a cache line, so that threads do not share one */
+} ChunkSums;
+
+typedef struct KernelInput {
+    const ElementGroup *group;
+    int first_block, end_block;
+    const double *x;     /* current positions (.. x 3) */
+    double inverse_step; /* 1 / dt of the last step; 0 at the start: no strain rate */
+    const double *origin; /* (3) of the volume */
+    double *history;     /* State.history */
+    double *corner;      /* corner buffer */
+    double *lane_rate;   /* squared frequency per padded element, or NULL */
+    bool restart_ledger; /* first call: histories are filled, no work is counted */
+} KernelInput;
+
+typedef void ElementKernel(const KernelInput *input, ChunkSums *sums);
+
+typedef struct KernelTable {
+    const char *name;
+    ElementKernel *surface;  /* LAW_SURFACE, any kind */
+    ElementKernel *triangle; /* any law */
+    ElementKernel *quad_full;
+    ElementKernel *quad_one;
+} KernelTable;
+
+/* The table for this processor; the environment variable BILLOW_KERNELS=v2|v3|v4 asks for a lesser one. NULL if the name
+ * is unknown or the processor lacks it. */
+const KernelTable *kernels_select(const char *wish);
+
+/* Adds the sums of blocks [first_block, end_block) with the right kernel. */
+ElementKernel *kernels_for(const KernelTable *table, const ElementGroup *group);
+
+#endif

@@ -1,0 +1,103 @@
+/* Stress, strain and thickness of one element for the writers, at its centre and with the laws of the kernels. */
+#include <math.h>
+#include <string.h>
+
+#include "elements/kernel_law.h"
+#include "elements/kernels.h"
+#include "elements/membrane.h"
+
+static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* Symmetric tensor sum of t11 u u + t22 w w + t12 (u w + w u) in order xx yy zz xy yz zx. */
+static void to_global(Tensor2 t, const double u[3], const double w[3], double scale, double out[6])
+{
+    static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
+    for (int i = 0; i < 6; i++) {
+        int a = row[i], b = column[i];
+        out[i] += scale * (t.a11 * u[a] * u[b] + t.a22 * w[a] * w[b] + t.a12 * (u[a] * w[b] + u[b] * w[a]));
+    }
+}
+
+/* One point: natural gradients g1, g2 and M. Columns of F are the images of the material axes. */
+static void add_point(const ElementGroup *group, const double *point, const double *g1, const double *g2, double share,
+                      ElementResult *result)
+{
+    double m11 = point[GEOMETRY_M11 * BILLOW_LANES], m12 = point[GEOMETRY_M12 * BILLOW_LANES],
+           m21 = point[GEOMETRY_M21 * BILLOW_LANES], m22 = point[GEOMETRY_M22 * BILLOW_LANES];
+    double f1[3], f2[3];
+    for (int k = 0; k < 3; k++) {
+        f1[k] = m11 * g1[k] + m21 * g2[k];
+        f2[k] = m12 * g1[k] + m22 * g2[k];
+    }
+    const FabricLaw *law = &group->material;
+    Tensor2 c = {dot(f1, f1), dot(f2, f2), dot(f1, f2)};
+    double det = larger(c.a11 * c.a22 - c.a12 * c.a12, BILLOW_LEAST_SQUARED_STRETCH), j = sqrt(det);
+    if (group->law == LAW_GREEN) {
+        Compliance b = make_compliance(&law->fabric);
+        PointResult r = green_point(law, &b, law->no_compression, law->has_liner, c);
+        to_global(r.stress, f1, f2, share / j, result->stress); /* Cauchy stress on the current area, thickness kept */
+    } else {
+        PointResult r = logarithmic_point(law, law->no_compression, law->has_liner, c);
+        to_global(r.stress, f1, f2, share / j, result->stress);
+    }
+    /* Green strain in the rotated material axes: R = F U^-1 */
+    double inverse = 1.0 / (j * sqrt(c.a11 + c.a22 + 2.0 * j));
+    double u11 = (c.a22 + j) * inverse, u22 = (c.a11 + j) * inverse, u12 = -c.a12 * inverse, r1[3], r2[3];
+    for (int k = 0; k < 3; k++) {
+        r1[k] = f1[k] * u11 + f2[k] * u12;
+        r2[k] = f1[k] * u12 + f2[k] * u22;
+    }
+    Tensor2 e = green_strain(c);
+    if (group->law == LAW_LOGARITHMIC) {
+        double half = 0.5 * (c.a11 - c.a22), mean = 0.5 * (c.a11 + c.a22), radius = sqrt(half * half + c.a12 * c.a12);
+        double c1 = larger(mean + radius, BILLOW_LEAST_SQUARED_STRETCH), c2 = larger(det / c1, BILLOW_LEAST_SQUARED_STRETCH);
+        double l1 = 0.5 * log_lane(c1), l2 = 0.5 * log_lane(c2), scale = 0.5 * (l1 - l2) / (radius + BILLOW_TINY);
+        e = (Tensor2){0.5 * (l1 + l2) + scale * half, 0.5 * (l1 + l2) - scale * half, scale * c.a12};
+    }
+    to_global(e, r1, r2, share, result->strain);
+}
+
+static const ElementGroup *group_of(const Model *model, int64_t slot)
+{
+    int low = 0, high = model->group_count - 1;
+    while (low < high) {
+        int middle = (low + high + 1) / 2;
+        if (model->groups[middle].first_element <= slot)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return &model->groups[low];
+}
+
+void membrane_result(const Model *model, const double *x, int element, ElementResult *result)
+{
+    int64_t slot = model->element_slot[element];
+    const ElementGroup *group = group_of(model, slot);
+    memset(result, 0, sizeof *result);
+    result->thickness = model->element_thickness[element];
+    if (group->law == LAW_SURFACE) return;
+    int64_t place = slot - group->first_element;
+    const double *geometry = group->geometry + place / BILLOW_LANES * group->geometry_size * BILLOW_LANES + place % BILLOW_LANES;
+    const int32_t *node = model->element_node + 4 * (ptrdiff_t)element;
+    double corner[4][3], g1[3], g2[3], h[3];
+    for (int a = 0; a < 4; a++) memcpy(corner[a], x + 3 * (ptrdiff_t)node[a], sizeof corner[a]);
+    if (group->kind == ELEMENT_TRIANGLE) {
+        for (int k = 0; k < 3; k++) {
+            g1[k] = corner[1][k] - corner[0][k];
+            g2[k] = corner[2][k] - corner[0][k];
+        }
+        add_point(group, geometry, g1, g2, 1.0, result);
+        return;
+    }
+    const double gauss = group->kind == ELEMENT_QUAD_FULL ? 0.57735026918962576 : 0.0;
+    for (int p = 0; p < group->point_count; p++) {
+        double xi = (p == 1 || p == 2) ? gauss : -gauss, eta = p >= 2 ? gauss : -gauss;
+        for (int k = 0; k < 3; k++) {
+            h[k] = 0.25 * ((corner[0][k] - corner[1][k]) + (corner[2][k] - corner[3][k]));
+            g1[k] = 0.25 * ((corner[1][k] - corner[0][k]) + (corner[2][k] - corner[3][k])) + eta * h[k];
+            g2[k] = 0.25 * ((corner[3][k] - corner[0][k]) + (corner[2][k] - corner[1][k])) + xi * h[k];
+        }
+        add_point(group, geometry + p * GEOMETRY_POINT_SIZE * BILLOW_LANES, g1, g2, 1.0 / group->point_count, result);
+    }
+}

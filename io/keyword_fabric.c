@@ -1,0 +1,116 @@
+/* *MAT_FABRIC. */
+#include "io/keyword_table.h"
+
+#define AT(member) offsetof(MaterialDefinition, member)
+static const FieldSpec card1_fields[] = {
+    CARD_INT("MID", id, USED, ID_MATERIAL),
+    CARD_REAL("RO", ro, USED, DENSITY),
+    CARD_REAL("EA", fabric.ea, USED, PRESSURE),
+    CARD_REAL("EB", fabric.eb, USED, PRESSURE),
+    CARD_GAP,
+    CARD_REAL("PRBA", fabric.prba, USED, NONE),
+    CARD_REAL("PRAB", fabric.prab, USED, NONE),
+};
+static const FieldSpec card2_fields[] = {
+    CARD_REAL("GAB", fabric.gab, USED, PRESSURE), CARD_GAP, CARD_GAP,
+    CARD_REAL("CSE", fabric.cse, USED, NONE),
+    CARD_REAL("EL", fabric.el, USED, PRESSURE),
+    CARD_REAL("PRL", fabric.prl, USED, NONE),
+    CARD_REAL("LRATIO", fabric.lratio, USED, NONE),
+    CARD_REAL("DAMP", fabric.damp, USED, NONE),
+};
+static const FieldSpec card3_fields[] = {
+    CARD_REAL("AOPT", fabric.aopt, USED, NONE),
+    CARD_REAL("FLC", fabric.flc, LISTED, NONE),
+    CARD_REAL("FAC", fabric.fac, LISTED, NONE),
+    CARD_REAL("ELA", fabric.ela, LISTED, NONE),
+    CARD_REAL("LNRC", fabric.lnrc, LISTED, NONE),
+    CARD_INT("FORM", fabric.form, USED, NONE),
+    CARD_REAL("FVOPT", fabric.fvopt, LISTED, NONE),
+    CARD_REAL("TSRFAC", fabric.tsrfac, LISTED, NONE),
+};
+static const FieldSpec card4_fields[] = {
+    CARD_GAP,
+    CARD_REAL("RGBRTH", fabric.rgbrth, LISTED, TIME),
+    CARD_REAL("A0REF", fabric.a0ref, LISTED, NONE),
+    CARD_REAL("A1", fabric.a1, USED, NONE),
+    CARD_REAL("A2", fabric.a2, USED, NONE),
+    CARD_REAL("A3", fabric.a3, USED, NONE),
+    CARD_REAL("X0", fabric.x0, LISTED, NONE),
+    CARD_REAL("X1", fabric.x1, LISTED, NONE),
+};
+static const FieldSpec card5_fields[] = {
+    CARD_REAL("V1", fabric.v1, USED, NONE),
+    CARD_REAL("V2", fabric.v2, USED, NONE),
+    CARD_REAL("V3", fabric.v3, USED, NONE),
+    CARD_GAP, CARD_GAP, CARD_GAP,
+    CARD_REAL("BETA", fabric.beta, USED, NONE),
+    CARD_INT("ISREFG", fabric.isrefg, LISTED, NONE),
+};
+static const FieldSpec card6_fields[] = {
+    CARD_INT("LCA", fabric.lca, REFUSED, ID_FUNCTION),   CARD_INT("LCB", fabric.lcb, REFUSED, ID_FUNCTION),
+    CARD_INT("LCAB", fabric.lcab, REFUSED, ID_FUNCTION), CARD_INT("LCUA", fabric.lcua, REFUSED, ID_FUNCTION),
+    CARD_INT("LCUB", fabric.lcub, REFUSED, ID_FUNCTION), CARD_INT("LCUAB", fabric.lcuab, REFUSED, ID_FUNCTION),
+    CARD_REAL("RL", fabric.rl, REFUSED, NONE),
+};
+static const FieldSpec card7_fields[] = {
+    CARD_INT("LCAA", fabric.lcaa, REFUSED, ID_FUNCTION),
+    CARD_INT("LCBB", fabric.lcbb, REFUSED, ID_FUNCTION),
+    CARD_REAL("H", fabric.h, REFUSED, NONE),
+    CARD_INT("DT", fabric.dt, REFUSED, NONE),
+    CARD_GAP,
+    CARD_REAL("ECOAT", fabric.ecoat, REFUSED, PRESSURE),
+    CARD_REAL("SCOAT", fabric.scoat, REFUSED, PRESSURE),
+    CARD_REAL("TCOAT", fabric.tcoat, REFUSED, LENGTH),
+};
+#undef AT
+
+enum { FABRIC_TITLE };
+static const CardSpec cards[] = {
+    {"card 1", "", CARD_FIELDS(card1_fields)},
+    {"card 2", "", CARD_FIELDS(card2_fields)},
+    {"card 3", "", CARD_FIELDS(card3_fields)},
+    {"card 4", "may be left out if AOPT = 0", CARD_FIELDS(card4_fields)},
+    {"card 5", "may be left out if AOPT = 0", CARD_FIELDS(card5_fields)},
+    {"card 6", "if FORM is 4, 14, -14 or 24", CARD_FIELDS(card6_fields)},
+    {"card 7", "if FORM = -14", CARD_FIELDS(card7_fields)},
+};
+
+static void read_fabric(KeywordRead *read)
+{
+    MaterialDefinition card = {.kind = MATERIAL_FABRIC};
+    FabricCard *fabric = &card.fabric;
+    keyword_title(read, FABRIC_TITLE, card.title);
+    Source third = BILLOW_NO_SOURCE;
+    int status = keyword_card(read, 0, &card, true, &card.source);
+    for (int i = 1; i < 3; i++)
+        if (keyword_card(read, i, &card, status == 0, &third)) status = -1;
+    if (status) return;
+    const bool known = fabric->form >= 0 && fabric->form <= 2;
+    for (int i = 3; i < 5; i++)
+        if (card_left(read->cards) && keyword_card(read, i, &card, true, NULL)) status = -1;
+    if (known) {
+        keyword_finish(read);
+    } else { /* the material is kept, so that its parts do not complain that it is missing */
+        keyword_error(read, third, "FORM = %d is not read by billow " BILLOW_VERSION "; use 0, 1 or 2", fabric->form);
+    }
+    if (status || !keyword_check_id(read, card.id, "MID", card.source)) return;
+    if (fabric->aopt < 0.0) fabric->aopt = keyword_scale(read, fabric->aopt, SCALE_ID_DEFINE);
+    double a[3] = {fabric->a1, fabric->a2, fabric->a3}, v[3] = {fabric->v1, fabric->v2, fabric->v3};
+    keyword_transform_vector(read, a);
+    keyword_transform_vector(read, v);
+    fabric->a1 = a[0], fabric->a2 = a[1], fabric->a3 = a[2];
+    fabric->v1 = v[0], fabric->v2 = v[1], fabric->v3 = v[2];
+    MaterialDefinition *material = KEYWORD_APPEND(read, read->definitions->materials);
+    if (material) *material = card;
+}
+
+static const KeywordSpec specs[] = {
+    {.name = "*MAT_FABRIC", .aliases = {"*MAT_034", "*MAT_34"}, .options = {"TITLE"}, .cards = cards, .card_count = 7,
+     .read = read_fabric,
+     .remark = "FORM 0, 1 and 2; others are refused by name, so cards 6 and 7 are never met. FLC, FAC, ELA, FVOPT, X0, X1 "
+               "and A0REF are for leakage through the fabric, LNRC, RGBRTH, TSRFAC and ISREFG for reference geometries: "
+               "without those they have no effect."},
+};
+
+const KeywordFamily keyword_family_fabric = {"Fabric", specs, (int)(sizeof specs / sizeof *specs)};

@@ -1,0 +1,222 @@
+/* The report of an accepted deck: the text of billow check and of the log. */
+#include "io/report.h"
+
+#include <math.h>
+
+#include "solver/element_steps.h"
+#include "solver/memory.h"
+
+enum { LISTED_BODIES = 20 };
+
+static void write_heading(const char *heading, FILE *stream)
+{
+    fprintf(stream, "\n%s\n", heading);
+    for (const char *c = heading; *c; c++) fputc('-', stream);
+    fputc('\n', stream);
+}
+
+void report_write_keywords(const Definitions *d, FILE *stream)
+{
+    const struct {
+        const char *name;
+        size_t count;
+    } counts[] = {
+        {"nodes (*NODE)", d->nodes.count},
+        {"shells (*ELEMENT_SHELL)", d->shells.count},
+        {"parts (*PART)", d->parts.count},
+        {"sections (*SECTION_SHELL)", d->sections.count},
+        {"materials (*MAT)", d->materials.count},
+        {"hourglass definitions (*HOURGLASS)", d->hourglasses.count},
+        {"sets (*SET)", d->sets.count},
+        {"curves (*DEFINE_CURVE)", d->curves.count},
+        {"coordinate systems (*DEFINE_COORDINATE)", d->coordinates.count},
+        {"vectors (*DEFINE_VECTOR)", d->vectors.count},
+        {"boxes (*DEFINE_BOX)", d->boxes.count},
+        {"hanging nodes (*CONSTRAINED_ADAPTIVITY)", d->adaptivities.count},
+        {"output intervals (*DATABASE)", d->databases.count},
+        {"history entries (*DATABASE_HISTORY)", d->histories.count},
+        {"supports (*BOUNDARY_SPC)", d->spcs.count},
+        {"prescribed motions (*BOUNDARY_PRESCRIBED_MOTION)", d->motions.count},
+        {"initial velocities (*INITIAL_VELOCITY)", d->velocities.count},
+        {"node loads (*LOAD_NODE)", d->node_loads.count},
+        {"segment loads (*LOAD_SEGMENT)", d->segment_loads.count},
+        {"body loads (*LOAD_BODY)", d->body_loads.count},
+        {"gravity on parts (*LOAD_GRAVITY_PART)", d->gravity_parts.count},
+        {"dampings (*DAMPING)", d->dampings.count},
+        {"airbags (*AIRBAG)", d->airbags.count},
+    };
+    write_heading("Keywords", stream);
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
+        if (counts[i].count > 0) fprintf(stream, "  %-52s %9zu\n", counts[i].name, counts[i].count);
+}
+
+static const char *material_name(int kind)
+{
+    switch (kind) {
+    case MATERIAL_FABRIC:
+        return "fabric";
+    case MATERIAL_ELASTIC:
+        return "elastic";
+    case MATERIAL_NULL:
+        return "null";
+    case MATERIAL_RIGID:
+        return "rigid";
+    default:
+        return "?";
+    }
+}
+
+static void write_bodies(const Model *model, FILE *stream)
+{
+    for (int i = 0; i < model->rigid_body_count && i < LISTED_BODIES; i++) {
+        const RigidBody *body = &model->rigid_bodies[i];
+        fprintf(stream, "  moving rigid part %d: mass %.6g, centre (%.6g, %.6g, %.6g), inertia %.6g %.6g %.6g\n",
+                body->part_id, body->mass, body->centre[0], body->centre[1], body->centre[2], body->inertia[0],
+                body->inertia[1], body->inertia[2]);
+    }
+    if (model->rigid_body_count > LISTED_BODIES)
+        fprintf(stream, "  and %d more moving rigid parts\n", model->rigid_body_count - LISTED_BODIES);
+}
+
+void report_write_parts(const Model *model, FILE *stream)
+{
+    double mass = 0.0, area = 0.0;
+    write_heading("Parts", stream);
+    fprintf(stream, "  %d nodes, %d elements (%d deformable)\n", model->node_count, model->element_count,
+            model->deformable_count);
+    fprintf(stream, "  %8s %-8s %9s %12s %13s %13s  %s\n", "part", "material", "elements", "thickness", "area", "mass",
+            "title");
+    for (int i = 0; i < model->part_count; i++) {
+        const Part *part = &model->parts[i];
+        fprintf(stream, "  %8d %-8s %9d %12.5g %13.6g %13.6g  %s\n", part->id, material_name(part->material_kind),
+                part->element_count, part->thickness, part->area, part->mass, part->title);
+        mass += part->mass;
+        area += part->area;
+    }
+    fprintf(stream, "  %8s %-8s %9d %12s %13.6g %13.6g\n", "total", "", model->element_count, "", area, mass);
+    write_bodies(model, stream);
+}
+
+static void write_closure(const SurfaceClosure *closure, FILE *stream)
+{
+    fprintf(stream, "    surface: volume %.8g, area %.8g, %d edge-connected shell%s, %d segment%s turned\n",
+            closure->volume, closure->area, closure->components, closure->components == 1 ? "" : "s", closure->turned,
+            closure->turned == 1 ? "" : "s");
+    fprintf(stream, "    free edges: %d, closed by %d cap%s and %d seam%s of hanging nodes\n", closure->free_edges,
+            closure->cap_count, closure->cap_count == 1 ? "" : "s", closure->seams, closure->seams == 1 ? "" : "s");
+    for (int i = 0; i < closure->cap_count; i++) {
+        const SurfaceCap *cap = &closure->caps[i];
+        fprintf(stream,
+                "      cap %d: %d edges about (%.6g, %.6g, %.6g), area %.6g, out of plane by %.3g of its size, %s\n",
+                i + 1, cap->count, cap->centre[0], cap->centre[1], cap->centre[2], cap->area, cap->planarity,
+                cap->fixed_count == cap->count ? "all its nodes fixed"
+                : cap->fixed_count > 0         ? "some of its nodes fixed"
+                                               : "its nodes free");
+    }
+}
+
+static void write_gas(const Airbag *bag, const GasState *gas, FILE *stream)
+{
+    const GasModel *model = &bag->gas;
+    fprintf(stream, "    gas (%s): V %.8g, p %.6g, T %.6g, density %.6g, mass %.6g, energy %.6g\n",
+            model->kind == GAS_SIMPLE ? "SIMPLE_AIRBAG_MODEL" : "WANG_NEFSKE", gas->volume, gas->pressure,
+            gas->temperature, gas->density, gas->mass, gas->energy);
+    if (model->temperature_dependent)
+        fprintf(stream, "    heat capacity: molar cp = %.6g + %.6g T, molar mass %.6g\n", model->a, model->b,
+                model->molar_mass);
+    else
+        fprintf(stream, "    heat capacities: cv %.6g, cp %.6g, gamma %.6g\n", model->cv, model->cp,
+                model->cv > 0.0 ? model->cp / model->cv : NAN);
+    fprintf(stream, "    outside: pressure %.6g; exit areas: vent %.6g, porosity %.6g\n", bag->ambient,
+            model->vent_area, model->porosity_area);
+}
+
+void report_write_airbags(const Model *model, const State *state, FILE *stream)
+{
+    if (model->airbag_count == 0) return;
+    write_heading("Airbags", stream);
+    for (int i = 0; i < model->airbag_count; i++) {
+        const Airbag *bag = &model->airbags[i];
+        fprintf(stream, "  airbag %d%s%s: %d part%s, %d nodes\n", bag->id, bag->heading[0] ? " " : "", bag->heading,
+                bag->part_count, bag->part_count == 1 ? "" : "s", bag->node_count);
+        write_closure(&bag->closure, stream);
+        if (state) write_gas(bag, &state->gas[i], stream);
+    }
+}
+
+void report_write_conditions(const Model *model, FILE *stream)
+{
+    const Constraints *constraints = &model->constraints;
+    const struct {
+        const char *name;
+        int count;
+    } counts[] = {
+        {"nodes that never move", model->node_count - model->moving_count},
+        {"supports", constraints->support_count},
+        {"prescribed motions", constraints->motion_count},
+        {"hanging nodes tied to the middle of their edge", constraints->hanging_count},
+        {"node loads", model->loads.node_load_count},
+        {"segment loads", model->segment_load_count},
+        {"classes of body force and damping", model->loads.class_count > 1 ? model->loads.class_count - 1 : 0},
+        {"moving rigid bodies", model->rigid_body_count},
+    };
+    bool any = false;
+    write_heading("Supports and loads", stream);
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        if (counts[i].count <= 0) continue;
+        fprintf(stream, "  %-52s %9d\n", counts[i].name, counts[i].count);
+        any = true;
+    }
+    if (!any) fprintf(stream, "  none\n");
+}
+
+void report_write_steps(const Model *model, int limit, FILE *stream)
+{
+    write_heading("Stable time steps (elements in their reference geometry)", stream);
+    if (model->added_mass > 0.0) fprintf(stream, "  mass added by DT2MS: %.6g\n", model->added_mass);
+    ElementStep *list = memory_alloc((size_t)limit, sizeof *list);
+    const int count = list ? element_steps_smallest(model, limit, list) : 0;
+    if (count == 0) {
+        fprintf(stream, "  no element sets the step: it follows the gas, the curves and the output interval\n");
+    } else {
+        fprintf(stream, "  smallest %.6g in element %d; times the scale factor %.4g: %.6g\n", list[0].step,
+                model->element_id[list[0].element], model->step_scale, model->step_scale * list[0].step);
+        fprintf(stream, "  %10s %10s %14s\n", "element", "part", "step");
+        for (int i = 0; i < count; i++)
+            fprintf(stream, "  %10d %10d %14.6g\n", model->element_id[list[i].element],
+                    model->parts[model->element_part[list[i].element]].id, list[i].step);
+    }
+    memory_free(list);
+}
+
+void report_write_plan(const Model *model, const OutputPlan *plan, FILE *stream)
+{
+    const struct {
+        const char *name;
+        double interval;
+        bool present;
+    } kinds[] = {
+        {"states", plan->states, true},
+        {"glstat", plan->glstat, true},
+        {"matsum", plan->matsum, true},
+        {"abstat", plan->abstat, model->airbag_count > 0},
+        {"nodout", plan->nodout, plan->history_count > 0},
+        {"rbdout", plan->rbdout, model->rigid_body_count > 0},
+    };
+    write_heading("End and output", stream);
+    fprintf(stream, "  end time %.9g", model->end_time);
+    if (model->end_cycle > 0) fprintf(stream, ", at most %d cycles", model->end_cycle);
+    fprintf(stream, "\n  output intervals:");
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (kinds[i].present && kinds[i].interval > 0.0) fprintf(stream, " %s %.6g", kinds[i].name, kinds[i].interval);
+    if (plan->restart > 0.0) fprintf(stream, " checkpoint every %.0f cycles", plan->restart);
+    fputc('\n', stream);
+}
+
+void report_write_messages(const Diagnostics *diagnostics, FILE *stream)
+{
+    write_heading("Messages", stream);
+    fprintf(stream, "  %d warning%s, %d note%s\n", diagnostics->warnings, diagnostics->warnings == 1 ? "" : "s",
+            diagnostics->notes, diagnostics->notes == 1 ? "" : "s");
+    diagnostics_print(diagnostics, SEVERITY_NOTE, stream);
+}

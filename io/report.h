@@ -1,0 +1,33 @@
+/* The report of an accepted deck: the text of billow check and of the log. */
+#ifndef BILLOW_REPORT_H
+#define BILLOW_REPORT_H
+
+#include <stdio.h>
+
+#include "solver/definitions.h"
+#include "solver/diagnostics.h"
+#include "solver/model.h"
+#include "solver/state.h"
+
+/* How many items of each keyword the deck has. */
+void report_write_keywords(const Definitions *definitions, FILE *stream);
+
+/* Nodes, elements, parts with material, thickness, area and mass; moving rigid bodies. */
+void report_write_parts(const Model *model, FILE *stream);
+
+/* Each bag's surface (orientation, free edges, caps with their place), volume and gas at the state. */
+void report_write_airbags(const Model *model, const State *state, FILE *stream);
+
+/* Supports, prescribed motion, loads, hanging nodes. */
+void report_write_conditions(const Model *model, FILE *stream);
+
+/* The stable step of the deck: the limit smallest elements in their reference state, mass added by DT2MS. */
+void report_write_steps(const Model *model, int limit, FILE *stream);
+
+/* End time and output intervals. */
+void report_write_plan(const Model *model, const OutputPlan *plan, FILE *stream);
+
+/* All messages that were collected, under a heading of their own. */
+void report_write_messages(const Diagnostics *diagnostics, FILE *stream);
+
+#endif

@@ -1,0 +1,276 @@
+/* results.vtkhdf: layout of the file, creation and appending states.
+ *
+ * Every state appends node_count rows to the point arrays and element_count rows to the cell arrays. The Steps group
+ * says per state where its rows begin; an offset of 0 for every state marks what never changes: topology, ids, parts.
+ */
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "elements/membrane.h"
+#include "io/vtkhdf_file.h"
+#include "io/vtkhdf_mesh.h"
+#include "solver/memory.h"
+
+enum { CHUNK_ROWS_LIMIT = 1 << 20, STEP_CHUNK = 128 };
+enum { METADATA_RESERVE = 1 << 18 }; /* bytes: more than the index nodes that one state can add to all arrays */
+
+const VtkHdfData vtkhdf_data[DATA_COUNT] = {
+    [DATA_POINTS] = {"Points", 3, false, true},
+    [DATA_VELOCITY] = {"PointData/velocity", 3, false, true},
+    [DATA_DISPLACEMENT] = {"PointData/displacement", 3, false, false},
+    [DATA_STRESS] = {"CellData/stress", 6, true, false},
+    [DATA_STRAIN] = {"CellData/strain", 6, true, false},
+    [DATA_THICKNESS] = {"CellData/thickness", 1, true, false},
+};
+
+const VtkHdfColumn vtkhdf_columns[COLUMN_COUNT] = {
+    {"PartOffsets", 0, ROWS_NONE},
+    {"NumberOfParts", 1, ROWS_NONE},
+    {"PointOffsets", 0, ROWS_POINTS},
+    {"CellOffsets", 0, ROWS_NONE},
+    {"ConnectivityIdOffsets", 0, ROWS_NONE},
+    {"PointDataOffsets/velocity", 0, ROWS_POINTS},
+    {"PointDataOffsets/displacement", 0, ROWS_POINTS},
+    {"PointDataOffsets/node_id", 0, ROWS_NONE},
+    {"CellDataOffsets/stress", 0, ROWS_CELLS},
+    {"CellDataOffsets/strain", 0, ROWS_CELLS},
+    {"CellDataOffsets/thickness", 0, ROWS_CELLS},
+    {"CellDataOffsets/part_id", 0, ROWS_NONE},
+    {"CellDataOffsets/element_id", 0, ROWS_NONE},
+    {"CellDataOffsets/contact", 0, ROWS_NONE},
+};
+
+int vtkhdf_report_failure(VtkHdf *grid, const char *action)
+{
+    int cause = errno;
+    if (!grid->reported)
+        diagnostics_add(grid->diagnostics, SEVERITY_ENVIRONMENT, BILLOW_NO_SOURCE, NULL,
+                        "cannot %s %s: %s; it holds %zu states, free space or choose another folder with -o", action,
+                        grid->path, cause ? strerror(cause) : "HDF5 failed", grid->count);
+    grid->reported = true;
+    return -1;
+}
+
+int vtkhdf_report_memory(Diagnostics *diagnostics, const char *path)
+{
+    diagnostics_add(diagnostics, SEVERITY_ENVIRONMENT, BILLOW_NO_SOURCE, NULL, "not enough memory to write %s", path);
+    return -1;
+}
+
+VtkHdf *vtkhdf_allocate(const char *path, const Model *model, Diagnostics *diagnostics)
+{
+    VtkHdf *grid = memory_alloc(1, sizeof *grid);
+    if (!grid) return NULL;
+    grid->diagnostics = diagnostics;
+    grid->file = grid->root = grid->steps = -1;
+    grid->space.file = -1;
+    for (int i = 0; i < DATA_COUNT; i++) grid->data[i].dataset = -1;
+    for (int i = 0; i < COLUMN_COUNT; i++) grid->columns[i].dataset = -1;
+    grid->values.dataset = -1;
+    grid->points = (hsize_t)model->node_count;
+    grid->cells = (hsize_t)model->element_count;
+    grid->path = memory_alloc(strlen(path) + 1, 1);
+    grid->point_rows = memory_alloc((size_t)grid->points * 3 + 1, sizeof(double));
+    grid->cell_rows = memory_alloc((size_t)grid->cells * 13 + 1, sizeof(float));
+    if (!grid->path || !grid->point_rows || !grid->cell_rows) {
+        vtkhdf_close(grid);
+        return NULL;
+    }
+    strcpy(grid->path, path);
+    return grid;
+}
+
+/* HDF5 leaves an unreadable file behind when the disk runs full, so the space is taken before HDF5 starts to write. */
+int vtkhdf_reserve_space(VtkHdf *grid, hsize_t bytes)
+{
+    return grid->broken ? -1 : disk_space_reserve(&grid->space, grid->path, (off_t)bytes + METADATA_RESERVE);
+}
+
+/* Hands everything to the system and gives back what was reserved and not used. */
+int vtkhdf_flush(VtkHdf *grid)
+{
+    hsize_t size = 0;
+    if (H5Fflush(grid->file, H5F_SCOPE_GLOBAL) < 0 || H5Fget_filesize(grid->file, &size) < 0) return -1;
+    return disk_space_trim(&grid->space, (off_t)size);
+}
+
+/* Bytes of one state, in whole chunks. */
+static hsize_t state_bytes(const VtkHdf *grid)
+{
+    hsize_t bytes = 0;
+    for (int i = 0; i < DATA_COUNT; i++) {
+        hsize_t rows = vtkhdf_data[i].per_cell ? grid->cells : grid->points;
+        if (rows > CHUNK_ROWS_LIMIT) rows = (rows / CHUNK_ROWS_LIMIT + 1) * CHUNK_ROWS_LIMIT;
+        bytes += rows * (hsize_t)vtkhdf_data[i].components * (vtkhdf_data[i].is_double ? 8 : 4);
+    }
+    return bytes + (COLUMN_COUNT + 1) * STEP_CHUNK * 8;
+}
+
+static int create_groups(VtkHdf *grid)
+{
+    static const char *const names[] = {
+        "PointData", "CellData", "FieldData", "Steps", "Steps/PointDataOffsets", "Steps/CellDataOffsets"};
+    const long long version[2] = {2, 0}, no_states = 0;
+    grid->root = hdf5_create_group(grid->file, "VTKHDF");
+    if (grid->root < 0 || hdf5_write_integers(grid->root, "Version", 2, version) ||
+        hdf5_write_text(grid->root, "Type", "UnstructuredGrid"))
+        return -1;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        hid_t group = hdf5_create_group(grid->root, names[i]);
+        if (group < 0 || H5Gclose(group) < 0) return -1;
+    }
+    grid->steps = H5Gopen2(grid->root, "Steps", H5P_DEFAULT);
+    return grid->steps < 0 || hdf5_write_integers(grid->steps, "NSteps", 0, &no_states) ? -1 : 0;
+}
+
+/* One state is one chunk, so that it is written in one piece. */
+static int create_arrays(VtkHdf *grid)
+{
+    for (int i = 0; i < DATA_COUNT; i++) {
+        hsize_t rows = vtkhdf_data[i].per_cell ? grid->cells : grid->points;
+        hsize_t chunk = rows > CHUNK_ROWS_LIMIT ? CHUNK_ROWS_LIMIT : rows < 1 ? 1 : rows;
+        bool is_double = vtkhdf_data[i].is_double;
+        if (hdf5_create_array(grid->root, vtkhdf_data[i].name, is_double ? H5T_IEEE_F64LE : H5T_IEEE_F32LE,
+                              is_double ? H5T_NATIVE_DOUBLE : H5T_NATIVE_FLOAT, vtkhdf_data[i].components, chunk,
+                              &grid->data[i]))
+            return -1;
+    }
+    for (int i = 0; i < COLUMN_COUNT; i++)
+        if (hdf5_create_array(grid->steps, vtkhdf_columns[i].name, H5T_STD_I64LE, H5T_NATIVE_INT64, 1, STEP_CHUNK,
+                              &grid->columns[i]))
+            return -1;
+    return hdf5_create_array(grid->steps, "Values", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, STEP_CHUNK, &grid->values);
+}
+
+int vtkhdf_create(const char *path, const Model *model, VtkHdf **grid, Diagnostics *diagnostics)
+{
+    *grid = vtkhdf_allocate(path, model, diagnostics);
+    if (!*grid) return vtkhdf_report_memory(diagnostics, path);
+    errno = 0;
+    (*grid)->file = hdf5_create_file(path);
+    if ((*grid)->file >= 0 && vtkhdf_reserve_space(*grid, 80 * ((*grid)->points + (*grid)->cells)) == 0 &&
+        create_groups(*grid) == 0 && create_arrays(*grid) == 0 &&
+        vtkhdf_write_mesh((*grid)->file, (*grid)->root, model) == 0 && vtkhdf_flush(*grid) == 0)
+        return 0;
+    vtkhdf_report_failure(*grid, "create");
+    if ((*grid)->file >= 0) remove(path);
+    (*grid)->broken = true;
+    vtkhdf_close(*grid);
+    *grid = NULL;
+    return -1;
+}
+
+int vtkhdf_state_count(const VtkHdf *grid)
+{
+    return (int)grid->count;
+}
+
+double vtkhdf_state_time(const VtkHdf *grid, int index)
+{
+    return grid->times[index];
+}
+
+/* Appends the rows of one array of the coming state. */
+static int append_data(VtkHdf *grid, DataArray which, const void *rows)
+{
+    hsize_t per_state = vtkhdf_data[which].per_cell ? grid->cells : grid->points;
+    return hdf5_append_rows(&grid->data[which], grid->count * per_state, per_state, rows);
+}
+
+/* Positions, velocities and displacements in deck order. */
+static int append_point_data(VtkHdf *grid, const Model *model, const double *x, const double *v)
+{
+    const double *sources[2] = {x, v};
+    for (int s = 0; s < 2; s++) {
+        for (int i = 0; i < model->node_count; i++)
+            for (int c = 0; c < 3; c++)
+                grid->point_rows[3 * (ptrdiff_t)i + c] = sources[s][3 * (ptrdiff_t)model->deck_node[i] + c];
+        if (append_data(grid, s == 0 ? DATA_POINTS : DATA_VELOCITY, grid->point_rows)) return -1;
+    }
+    float *displacement = (float *)(void *)grid->point_rows;
+    for (int i = 0; i < model->node_count; i++) {
+        ptrdiff_t node = 3 * (ptrdiff_t)model->deck_node[i];
+        for (int c = 0; c < 3; c++)
+            displacement[3 * (ptrdiff_t)i + c] = (float)(x[node + c] - model->initial[node + c]);
+    }
+    return append_data(grid, DATA_DISPLACEMENT, displacement);
+}
+
+static int append_cell_data(VtkHdf *grid, const Model *model, const double *x)
+{
+    float *stress = grid->cell_rows, *strain = stress + 6 * grid->cells, *thickness = strain + 6 * grid->cells;
+    for (int e = 0; e < model->element_count; e++) {
+        ElementResult result;
+        membrane_result(model, x, e, &result);
+        for (int c = 0; c < 6; c++) {
+            stress[6 * (ptrdiff_t)e + c] = (float)result.stress[c];
+            strain[6 * (ptrdiff_t)e + c] = (float)result.strain[c];
+        }
+        thickness[e] = (float)result.thickness;
+    }
+    return append_data(grid, DATA_STRESS, stress) || append_data(grid, DATA_STRAIN, strain) ||
+                   append_data(grid, DATA_THICKNESS, thickness)
+               ? -1
+               : 0;
+}
+
+/* The Steps group last: until NSteps counts the state, readers do not see it. */
+static int append_step(VtkHdf *grid, double time)
+{
+    const long long states = (long long)grid->count + 1;
+    for (int i = 0; i < COLUMN_COUNT; i++) {
+        hsize_t stride = vtkhdf_columns[i].rows == ROWS_POINTS  ? grid->points
+                         : vtkhdf_columns[i].rows == ROWS_CELLS ? grid->cells
+                                                                : 0;
+        const int64_t value = vtkhdf_columns[i].base + (int64_t)(grid->count * stride);
+        if (hdf5_append_rows(&grid->columns[i], grid->count, 1, &value)) return -1;
+    }
+    return hdf5_append_rows(&grid->values, grid->count, 1, &time) ||
+                   hdf5_write_integers(grid->steps, "NSteps", 0, &states) || vtkhdf_flush(grid)
+               ? -1
+               : 0;
+}
+
+int vtkhdf_write_state(VtkHdf *grid, const Model *model, double time, const double *x, const double *v)
+{
+    if (grid->count > 0 && !(time > grid->times[grid->count - 1])) return 0;
+    if (memory_reserve((void **)&grid->times, &grid->capacity, grid->count + 1, sizeof *grid->times))
+        return vtkhdf_report_memory(grid->diagnostics, grid->path);
+    errno = 0;
+    if (vtkhdf_reserve_space(grid, state_bytes(grid))) return vtkhdf_report_failure(grid, "write");
+    if (append_point_data(grid, model, x, v) || append_cell_data(grid, model, x) || append_step(grid, time)) {
+        grid->broken = true;
+        return vtkhdf_report_failure(grid, "write");
+    }
+    grid->times[grid->count++] = time;
+    return 0;
+}
+
+static int close_handles(VtkHdf *grid)
+{
+    int status = 0;
+    errno = 0;
+    for (int i = 0; i < DATA_COUNT; i++) status |= hdf5_close_array(&grid->data[i]);
+    for (int i = 0; i < COLUMN_COUNT; i++) status |= hdf5_close_array(&grid->columns[i]);
+    status |= hdf5_close_array(&grid->values);
+    if (grid->steps >= 0 && H5Gclose(grid->steps) < 0) status = -1;
+    if (grid->root >= 0 && H5Gclose(grid->root) < 0) status = -1;
+    if (grid->file >= 0 && H5Fclose(grid->file) < 0) status = -1;
+    return status;
+}
+
+int vtkhdf_close(VtkHdf *grid)
+{
+    int status = 0;
+    if (!grid) return 0;
+    if (!grid->broken) status = close_handles(grid);
+    if (disk_space_close(&grid->space)) status = -1;
+    if (status) vtkhdf_report_failure(grid, "close");
+    memory_free(grid->path);
+    memory_free(grid->times);
+    memory_free(grid->point_rows);
+    memory_free(grid->cell_rows);
+    memory_free(grid);
+    return status ? -1 : 0;
+}

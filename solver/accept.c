@@ -1,0 +1,49 @@
+/* From the command line's deck to a model and its state at time 0, with the messages users see. */
+#include "solver/accept.h"
+
+#include "io/read.h"
+#include "solver/build.h"
+
+static void add_memory_error(Diagnostics *diagnostics)
+{
+    diagnostics_add(diagnostics, SEVERITY_ENVIRONMENT, BILLOW_NO_SOURCE, NULL, "not enough memory for this deck");
+}
+
+int accept_deck(const Options *options, Accepted *accepted)
+{
+    Diagnostics *diagnostics = &accepted->diagnostics;
+    const Definitions *definitions = &accepted->definitions;
+    for (int i = 0; i < options->note_count; i++)
+        diagnostics_add(diagnostics, SEVERITY_NOTE, BILLOW_NO_SOURCE, NULL, "%s", options->notes[i]);
+    const int unread = deck_read(options->deck, &accepted->definitions, diagnostics);
+    if (unread && diagnostics_exit_code(diagnostics) == BILLOW_EXIT_NORMAL) add_memory_error(diagnostics);
+    /* A deck with errors is still built, so that all its errors surface together; unless nothing could be read of it:
+     * then every further message would only repeat that. */
+    if (unread && definitions->nodes.count == 0 && definitions->shells.count == 0) return -1;
+    if (diagnostics->environment > 0) return -1;
+    const int unbuilt = model_build(definitions, &options->build, &accepted->model, diagnostics);
+    if (unbuilt && diagnostics_exit_code(diagnostics) == BILLOW_EXIT_NORMAL) add_memory_error(diagnostics);
+    if (unread || unbuilt) return -1;
+    if (state_create(&accepted->model, &accepted->state)) {
+        add_memory_error(diagnostics);
+        return -1;
+    }
+    return 0;
+}
+
+void accept_print_problems(const Diagnostics *diagnostics, const char *deck, FILE *stream)
+{
+    const int errors = diagnostics->errors + diagnostics->environment;
+    diagnostics_print(diagnostics, SEVERITY_WARNING, stream);
+    if (errors > 0)
+        fprintf(stream, "%s: %d error%s, %d warning%s\n", deck, errors, errors == 1 ? "" : "s", diagnostics->warnings,
+                diagnostics->warnings == 1 ? "" : "s");
+}
+
+void accept_free(Accepted *accepted)
+{
+    state_free(&accepted->state);
+    model_free(&accepted->model);
+    definitions_free(&accepted->definitions);
+    diagnostics_free(&accepted->diagnostics);
+}

@@ -1,0 +1,141 @@
+/* *AIRBAG cards -> gas models. */
+#include <math.h>
+#include <string.h>
+
+#include "solver/builder.h"
+
+/* Curve id of a card field -> index; 0 -> -1. */
+static int curve_of(Builder *b, int id, const char *field, Source source, int *status)
+{
+    if (id == 0) return -1;
+    int index = deck_index_curve(&b->index, id < 0 ? -id : id, field, source, "*AIRBAG", b->diagnostics);
+    if (index < 0) *status = -1;
+    return index;
+}
+
+static int input_error(Builder *b, Source source, const char *text)
+{
+    diagnostics_add(b->diagnostics, SEVERITY_ERROR, source, "*AIRBAG", "%s", text);
+    return -1;
+}
+
+/* Heat capacities and ambient state, common to both models. */
+static int common_fields(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+{
+    gas->cv = bag->cv;
+    gas->cp = bag->cp;
+    gas->temperature_dependent = bag->cv == 0.0;
+    gas->a = bag->a;
+    gas->b = bag->b;
+    gas->molar_mass = bag->mw;
+    gas->gas_constant = bag->gasc;
+    gas->inflow_temperature = bag->t;
+    gas->ambient_pressure = bag->pe;
+    gas->ambient_density = bag->ro;
+    gas->ambient_temperature = bag->text;
+    gas->gravity_conversion = 1.0;
+    if (!gas->temperature_dependent && !(gas->cp > gas->cv && gas->cv > 0.0))
+        return input_error(b, bag->card3, "CP must exceed CV, both positive (or CV = 0 for capacities that depend on the "
+                                          "temperature)");
+    if (gas->temperature_dependent && !(gas->molar_mass > 0.0 && gas->gas_constant > 0.0 && gas->a > gas->gas_constant))
+        return input_error(b, bag->card3, "CV = 0 asks for heat capacities from A, B, MW and GASC: MW and GASC must be "
+                                          "positive and A must exceed GASC");
+    if (!(gas->ambient_pressure > 0.0) || !(gas->ambient_density > 0.0))
+        return input_error(b, bag->model == AIRBAG_SIMPLE ? bag->card3 : bag->card5,
+                           "PE and RO must be positive: they give the gas that fills the bag at the start");
+    return 0;
+}
+
+static int simple_gas(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+{
+    int status = 0;
+    gas->kind = GAS_SIMPLE;
+    gas->mass_flow_curve = curve_of(b, bag->lcid, "LCID", bag->card3, &status);
+    gas->exit_flow_curve = curve_of(b, bag->lou, "LOU", bag->card4, &status);
+    if (bag->mu < 0.0)
+        gas->vent_coefficient_pressure_curve = curve_of(b, (int)bag->mu, "MU", bag->card3, &status);
+    else
+        gas->vent_coefficient = bag->mu;
+    if (bag->area < 0.0)
+        gas->vent_area_pressure_curve = curve_of(b, (int)bag->area, "AREA", bag->card3, &status);
+    else
+        gas->vent_area = bag->area;
+    return status;
+}
+
+static int wang_nefske_gas(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+{
+    int status = 0;
+    gas->kind = GAS_WANG_NEFSKE;
+    gas->temperature_curve = curve_of(b, bag->lct, "LCT", bag->card3, &status);
+    gas->temperature_rate_curve = curve_of(b, bag->lcdt, "LCDT", bag->card3, &status);
+    int flow = curve_of(b, bag->lcmt, "LCMT", bag->card3, &status);
+    if (bag->tvol > 0.0)
+        gas->tank_pressure_curve = flow;
+    else
+        gas->mass_flow_curve = flow;
+    gas->tank_volume = bag->tvol;
+    gas->initial_temperature = bag->iabt;
+    gas->gravity_conversion = bag->gc != 0.0 ? bag->gc : 1.0;
+    gas->vent_coefficient = bag->c23;
+    gas->vent_area = bag->a23;
+    if (bag->c23 == 0.0 && bag->lcc23 < 0)
+        gas->vent_coefficient_ratio_curve = curve_of(b, bag->lcc23, "LCC23", bag->card4, &status);
+    else if (bag->c23 == 0.0)
+        gas->vent_coefficient_time_curve = curve_of(b, bag->lcc23, "LCC23", bag->card4, &status);
+    if (bag->a23 == 0.0) gas->vent_area_pressure_curve = curve_of(b, bag->lca23, "LCA23", bag->card4, &status);
+    if (bag->opt == 0.0) {
+        gas->porosity_coefficient = bag->cp23;
+        gas->porosity_area = bag->ap23;
+        if (bag->cp23 == 0.0)
+            gas->porosity_coefficient_time_curve = curve_of(b, bag->lccp23, "LCCP23", bag->card4, &status);
+        if (bag->ap23 == 0.0)
+            gas->porosity_area_pressure_curve = curve_of(b, bag->lcap23, "LCAP23", bag->card4, &status);
+    }
+    gas->exit_flow_curve = curve_of(b, bag->lcefr, "LCEFR", bag->card5, &status);
+    gas->overpressure = bag->pover;
+    gas->pop_pressure = bag->ppop;
+    if (bag->hconv < 0.0)
+        gas->heat_transfer_curve = curve_of(b, (int)bag->hconv, "HCONV", bag->card7, &status);
+    else
+        gas->heat_transfer = bag->hconv;
+    return status;
+}
+
+static int build_airbag(Builder *b, int number)
+{
+    const AirbagDefinition *definition = &b->definitions->airbags.items[number];
+    Airbag *bag = &b->model->airbags[number];
+    bag->id = definition->id ? definition->id : number + 1;
+    memcpy(bag->heading, definition->heading, sizeof bag->heading);
+    bag->vsca = definition->vsca;
+    bag->psca = definition->psca;
+    bag->vini = definition->vini;
+    bag->mwd = definition->mwd;
+    bag->spsf = definition->spsf;
+    bag->source = definition->source;
+    gas_model_reset(&bag->gas);
+    if (common_fields(b, definition, &bag->gas)) return -1;
+    int status = definition->model == AIRBAG_SIMPLE ? simple_gas(b, definition, &bag->gas)
+                                                    : wang_nefske_gas(b, definition, &bag->gas);
+    bag->ambient = bag->gas.ambient_pressure;
+    if (status) return -1;
+    GasState start;
+    const char *why = "";
+    const SurfaceClosure *closure = &b->closures[number];
+    if (gas_initialize(&bag->gas, b->model->curves, bag->vsca, bag->psca, bag->vini, closure->volume, closure->area,
+                       &start, &why)) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, definition->card1, "*AIRBAG",
+                        "airbag %d cannot start from its initial volume %g: %s", bag->id, closure->volume, why);
+        return -1;
+    }
+    return 0;
+}
+
+int build_airbags(Builder *b)
+{
+    int status = 0;
+    for (int i = 0; i < b->model->airbag_count; i++)
+        if (build_airbag(b, i)) status = -1;
+    return status;
+}

@@ -1,0 +1,187 @@
+/* Parts: materials and sections -> membrane laws, fibre axes, element kinds. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "solver/builder.h"
+#include "solver/coordinates.h"
+#include "solver/memory.h"
+
+static const double degree = 0.017453292519943295;
+
+static const SectionShellDefinition *find_section(const Definitions *d, int id)
+{
+    for (size_t i = 0; i < d->sections.count; i++)
+        if (d->sections.items[i].id == id) return &d->sections.items[i];
+    return NULL;
+}
+
+static void copy3(double *to, double a, double b, double c)
+{
+    to[0] = a;
+    to[1] = b;
+    to[2] = c;
+}
+
+/* AOPT and BETA of a fabric. */
+static int fabric_axis(Builder *b, const MaterialDefinition *m, PartRecord *part)
+{
+    const FabricCard *f = &m->fabric;
+    part->angle += f->beta * degree;
+    part->axis.kind = FIBRE_EDGE;
+    if (f->aopt == 2.0) {
+        part->axis.kind = FIBRE_VECTOR;
+        copy3(part->axis.vector, f->a1, f->a2, f->a3);
+    } else if (f->aopt == 3.0) {
+        part->axis.kind = FIBRE_CROSS;
+        copy3(part->axis.vector, f->v1, f->v2, f->v3);
+    } else if (f->aopt < 0.0) {
+        CoordinateSystem system;
+        if (coordinates_resolve_system(&b->index, (int)-f->aopt, m->source, "*MAT_FABRIC", &system, b->diagnostics))
+            return -1;
+        part->axis.kind = FIBRE_VECTOR;
+        memcpy(part->axis.vector, system.axes, sizeof part->axis.vector);
+    } else if (f->aopt != 0.0) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC",
+                        "AOPT = %g is not known; use 0, 2, 3 or minus a coordinate system", f->aopt);
+        return -1;
+    }
+    const double *v = part->axis.vector;
+    if (part->axis.kind != FIBRE_EDGE && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC",
+                        "AOPT = %g needs a direction, but its vector is zero; fill in %s", f->aopt,
+                        f->aopt == 2.0 ? "A1, A2, A3" : "V1, V2, V3");
+        return -1;
+    }
+    return 0;
+}
+
+/* MAT_FABRIC: EB, GAB default to the isotropic law of EA, PRBA as in LS-DYNA. */
+static int fabric_law(Builder *b, const MaterialDefinition *m, PartRecord *part)
+{
+    const FabricCard *f = &m->fabric;
+    Diagnostics *g = b->diagnostics;
+    if (!(f->ea > 0.0)) {
+        diagnostics_add(g, SEVERITY_ERROR, m->source, "*MAT_FABRIC", "EA = %g must be positive", f->ea);
+        return -1;
+    }
+    if (f->form != 0 && f->form != 1 && f->form != 2) return 0; /* reported by the reader */
+    double eb = f->eb > 0.0 ? f->eb : f->ea, prab = f->prab != 0.0 ? f->prab : f->prba * f->ea / eb;
+    double gab = f->gab > 0.0 ? f->gab : 0.5 * f->ea / (1.0 + f->prba);
+    double mismatch = fabs(f->prba * f->ea - prab * eb);
+    /* The manual's symmetry: PRBA/EB = PRAB/EA, thus PRBA EA = PRAB EB. */
+    if (mismatch > 1e-6 * (fabs(f->prba * f->ea) + fabs(prab * eb)))
+        diagnostics_add(g, SEVERITY_WARNING, m->source, "*MAT_FABRIC",
+                        "PRBA = %g and PRAB = %g do not fit EA = %g and EB = %g (PRBA EA must equal PRAB EB); both are "
+                        "used as given, their coupling stiffness is made symmetric by the mean",
+                        f->prba, prab, f->ea, eb);
+    PlaneModuli fabric = law_orthotropic(f->ea, eb, f->prba, prab, gab), liner = {0};
+    bool has_liner = f->lratio > 0.0 && f->el > 0.0;
+    if (fabric.d11 * fabric.d22 <= fabric.d12 * fabric.d12 || f->prba * prab >= 1.0) {
+        diagnostics_add(g, SEVERITY_ERROR, m->source, "*MAT_FABRIC",
+                        "EA = %g, EB = %g with PRBA = %g, PRAB = %g give an unstable material; lower Poisson's ratios",
+                        f->ea, eb, f->prba, prab);
+        return -1;
+    }
+    if (has_liner) liner = law_isotropic(f->el, f->prl);
+    law_set(&part->fabric, fabric, liner, f->lratio, has_liner);
+    part->fabric.no_compression = f->cse == 1.0;
+    part->fabric.damping = f->damp > 0.0 ? f->damp : 0.0;
+    part->law = f->form == 2 ? LAW_GREEN : LAW_LOGARITHMIC;
+    return fabric_axis(b, m, part);
+}
+
+static double hourglass_modulus(const Builder *b, const PartDefinition *definition)
+{
+    const Definitions *d = b->definitions;
+    double qh = d->control.hourglass.given ? d->control.hourglass.qh : 0.0;
+    for (size_t i = 0; i < d->hourglasses.count; i++)
+        if (definition->hourglass && d->hourglasses.items[i].id == definition->hourglass) qh = d->hourglasses.items[i].qm;
+    return qh > 0.0 ? qh : 0.1;
+}
+
+static int part_law(Builder *b, const PartDefinition *definition, const MaterialDefinition *m,
+                    const SectionShellDefinition *section, PartRecord *part)
+{
+    part->density = m->ro;
+    part->area_density = section->marea;
+    part->quad = b->options->one_point_quads ? ELEMENT_QUAD_ONE : ELEMENT_QUAD_FULL;
+    if (section->icomp == 1 && section->beta_count > 0) part->angle = section->beta[0] * degree;
+    if (!(m->ro > 0.0) && !(section->marea > 0.0) && m->kind != MATERIAL_NULL && m->kind != MATERIAL_RIGID) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, NULL,
+                        "material %d has density RO = %g; it must be positive", m->id, m->ro);
+        return -1;
+    }
+    switch (m->kind) {
+    case MATERIAL_FABRIC:
+        if (fabric_law(b, m, part)) return -1;
+        break;
+    case MATERIAL_ELASTIC:
+        if (section->elform != 5 && section->elform != 9) {
+            diagnostics_add(b->diagnostics, SEVERITY_ERROR, section->source, "*SECTION_SHELL",
+                            "ELFORM = %d with *MAT_ELASTIC is a shell with bending, which billow does not have; use the "
+                            "membranes 5 or 9 (part %d)",
+                            section->elform, definition->id);
+            return -1;
+        }
+        if (!(m->e > 0.0) || !(m->pr > -1.0 && m->pr < 1.0)) {
+            diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_ELASTIC",
+                            "E = %g must be positive and PR = %g between -1 and 1", m->e, m->pr);
+            return -1;
+        }
+        law_set(&part->fabric, law_isotropic(m->e, m->pr), (PlaneModuli){0}, 0.0, false);
+        part->law = LAW_LOGARITHMIC;
+        if (section->elform == 5) part->quad = ELEMENT_QUAD_ONE;
+        break;
+    case MATERIAL_NULL:
+    case MATERIAL_RIGID:
+        part->law = LAW_SURFACE;
+        break;
+    }
+    part->fabric.density = m->ro;
+    part->fabric.hourglass = hourglass_modulus(b, definition);
+    return 0;
+}
+
+int build_parts(Builder *b)
+{
+    const Definitions *d = b->definitions;
+    int status = 0;
+    b->parts = memory_alloc(d->parts.count + 1, sizeof *b->parts);
+    Part *parts = builder_alloc(b, d->parts.count + 1, sizeof *parts);
+    if (!b->parts || !parts) return -1;
+    b->model->parts = parts;
+    b->model->part_count = (int)d->parts.count;
+    for (size_t i = 0; i < d->parts.count; i++) {
+        const PartDefinition *definition = &d->parts.items[i];
+        PartRecord *record = &b->parts[i];
+        record->material = id_map_find(&b->index.materials, definition->material);
+        const SectionShellDefinition *section = find_section(d, definition->section);
+        record->section = section ? (int)(section - d->sections.items) : -1;
+        record->law = LAW_SURFACE;
+        bool used = b->index.part_shell_start[i + 1] > b->index.part_shell_start[i];
+        if (record->material < 0)
+            diagnostics_add(b->diagnostics, SEVERITY_ERROR, definition->source, "*PART",
+                            "part %d names material MID = %d, which the deck does not define", definition->id,
+                            definition->material);
+        if (!section && used)
+            diagnostics_add(b->diagnostics, SEVERITY_ERROR, definition->source, "*PART",
+                            "part %d names section SECID = %d, which the deck does not define as *SECTION_SHELL",
+                            definition->id, definition->section);
+        if (record->material < 0 || (!section && used)) status = -1;
+        if (record->material < 0 || !section) continue;
+        const MaterialDefinition *material = &d->materials.items[record->material];
+        if (part_law(b, definition, material, section, record)) status = -1;
+        Part *part = &parts[i];
+        part->id = definition->id;
+        part->deck_index = (int)i;
+        memcpy(part->title, definition->title, sizeof part->title);
+        part->material_id = definition->material;
+        part->section_id = definition->section;
+        part->material_kind = material->kind;
+        part->rigid_body = -1;
+        part->density = material->ro;
+        part->thickness = section->t[0];
+    }
+    return status;
+}

@@ -1,0 +1,28 @@
+/* Releases the deck's records. */
+#include "solver/definitions.h"
+
+#include <string.h>
+
+#include "solver/memory.h"
+
+void definitions_free(Definitions *d)
+{
+    for (size_t i = 0; i < d->sets.count; i++) {
+        memory_free(d->sets.items[i].members.items);
+        memory_free(d->sets.items[i].clauses.items);
+        memory_free(d->sets.items[i].segments.items);
+    }
+    for (size_t i = 0; i < d->curves.count; i++) {
+        memory_free(d->curves.items[i].x.items);
+        memory_free(d->curves.items[i].y.items);
+        memory_free(d->curves.items[i].lines.items);
+    }
+    void *lists[] = {d->nodes.items,         d->shells.items,     d->parts.items,       d->sections.items,
+                     d->materials.items,     d->hourglasses.items, d->sets.items,       d->curves.items,
+                     d->coordinates.items,   d->vectors.items,    d->boxes.items,       d->adaptivities.items,
+                     d->databases.items,     d->histories.items,  d->spcs.items,        d->motions.items,
+                     d->velocities.items,    d->node_loads.items, d->segment_loads.items, d->body_loads.items,
+                     d->gravity_parts.items, d->dampings.items,   d->airbags.items};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) memory_free(lists[i]);
+    memset(d, 0, sizeof *d);
+}

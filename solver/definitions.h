@@ -1,0 +1,313 @@
+/* The deck as written: one record per keyword item, each with its place in the deck.
+ * Filled by io/ (readers), consumed by solver/build_*.c, which validates and makes the Model.
+ * Values are the deck's own units; defaults of the manual are already applied by the readers (zero or blank), names are
+ * those of the cards in lower case. Ids are the user's. Zero means "not given" for ids of optional things. */
+#ifndef BILLOW_DEFINITIONS_H
+#define BILLOW_DEFINITIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "solver/billow.h"
+#include "solver/diagnostics.h"
+
+/* A growing array of records: item type T, e.g. LIST(NodeDefinition) nodes. Grow with memory_reserve. */
+#define LIST(T)          \
+    struct {             \
+        T *items;        \
+        size_t count;    \
+        size_t capacity; \
+    }
+
+typedef struct NodeDefinition {
+    int id;
+    double x[3];
+    int tc, rc; /* constraint codes of the NODE card (0..7) */
+    Source source;
+} NodeDefinition;
+
+typedef struct ShellDefinition {
+    int id, part;
+    int node[4];         /* a triangle has node[3] == node[2] (degenerate quads are stored so) */
+    double thickness[4]; /* _THICKNESS; zero: from the section */
+    double beta;         /* degrees, _BETA or the thickness card; valid if has_beta */
+    int mcid;            /* _MCID coordinate system; 0 none */
+    bool has_beta;
+    Source source;
+} ShellDefinition;
+
+typedef struct PartDefinition {
+    int id, section, material, eosid, hourglass, grav, adpopt, tmid;
+    char title[BILLOW_TITLE_LENGTH];
+    Source source;
+} PartDefinition;
+
+typedef struct SectionShellDefinition {
+    int id, elform, propt, icomp, setyp, qr_irid;
+    double shrf, nip, t[4], nloc, marea, idof;
+    int edgset;
+    int beta_count;   /* material angles when icomp = 1 */
+    double beta[8];   /* degrees, the first eight */
+    Source source;
+} SectionShellDefinition;
+
+typedef enum MaterialKind { MATERIAL_FABRIC, MATERIAL_ELASTIC, MATERIAL_NULL, MATERIAL_RIGID } MaterialKind;
+
+/* *MAT_FABRIC (MAT_034): every field of the cards, names as in the manual. */
+typedef struct FabricCard {
+    double ea, eb, prba, prab;
+    double gab, cse, el, prl, lratio, damp;
+    double aopt, flc, fac, ela, lnrc, fvopt, tsrfac;
+    int form;
+    double rgbrth, a0ref, a1, a2, a3, x0, x1;
+    double v1, v2, v3, beta;
+    int isrefg;
+    int lca, lcb, lcab, lcua, lcub, lcuab; /* forms 4, 14, -14, 24 */
+    double rl;
+    int lcaa, lcbb, dt; /* form -14 */
+    double h, ecoat, scoat, tcoat;
+} FabricCard;
+
+/* *MAT_RIGID. con1/con2 as written; lco_or_a1 may name a local system when cmo < 0. */
+typedef struct RigidCard {
+    double e, pr, n, couple, m;
+    char alias[11];
+    double cmo;
+    double con1, con2;
+    double lco_or_a1, a2, a3, v1, v2, v3;
+} RigidCard;
+
+typedef struct MaterialDefinition {
+    int id;
+    MaterialKind kind;
+    char title[BILLOW_TITLE_LENGTH];
+    double ro;
+    double e, pr, da, db, k; /* MAT_ELASTIC; MAT_NULL's YM and PR are in e and pr */
+    double pc, mu, terod, cerod; /* MAT_NULL */
+    FabricCard fabric;
+    RigidCard rigid;
+    Source source;
+} MaterialDefinition;
+
+typedef struct HourglassDefinition {
+    int id, ihq, ibq;
+    double qm, q1, q2, qb_vdc, qw;
+    Source source;
+} HourglassDefinition;
+
+typedef enum SetKind { SET_NODE, SET_PART, SET_SHELL, SET_SEGMENT } SetKind;
+
+typedef struct SegmentDefinition {
+    int node[4]; /* a triangle has node[3] == node[2] */
+    Source source;
+} SegmentDefinition;
+
+/* One line of a _GENERAL set: option ("ALL", "NODE", "PART", "BOX", "DNODE", "SEG", "SHELL", "SET_SHELL", ...), and its
+ * entity numbers e1..e7. _LIST members come as one clause "LIST_MEMBERS" in items; _GENERATE ranges as clauses
+ * "RANGE" with first, last, increment in e[0..2]. Boxes are resolved against the initial coordinates. */
+typedef struct SetClause {
+    char option[16];
+    double e[7];
+    Source source;
+} SetClause;
+
+typedef struct SetDefinition {
+    SetKind kind;
+    int id;
+    char title[BILLOW_TITLE_LENGTH];
+    double da[4];
+    LIST(int) members;                  /* _LIST: ids as written, zeros left out */
+    LIST(SetClause) clauses;            /* _GENERATE and _GENERAL */
+    LIST(SegmentDefinition) segments;   /* *SET_SEGMENT */
+    Source source;
+} SetDefinition;
+
+typedef struct CurveDefinition {
+    int id, sidr, dattyp, lcint;
+    double sfa, sfo, offa, offo;
+    char title[BILLOW_TITLE_LENGTH];
+    LIST(double) x; /* abscissae as written */
+    LIST(double) y;
+    LIST(int) lines; /* line of each point */
+    Source source;
+} CurveDefinition;
+
+/* *DEFINE_COORDINATE_NODES: three nodes; _SYSTEM: origin, point on x, point in xy; _VECTOR: x axis and xy vector. */
+typedef struct CoordinateDefinition {
+    enum { COORDINATE_NODES, COORDINATE_SYSTEM, COORDINATE_VECTOR } kind;
+    int id;
+    int node[3], flag, cidl, nid;
+    char dir; /* 'X', 'Y' or 'Z' of _NODES */
+    double origin[3], x_point[3], xy_point[3]; /* _SYSTEM; _VECTOR puts its vectors in x_point and xy_point */
+    Source source;
+} CoordinateDefinition;
+
+typedef struct VectorDefinition {
+    int id, cid;
+    double tail[3], head[3];
+    Source source;
+} VectorDefinition;
+
+typedef struct BoxDefinition {
+    int id;
+    double low[3], high[3];
+    Source source;
+} BoxDefinition;
+
+typedef struct AdaptivityDefinition { /* *CONSTRAINED_ADAPTIVITY: node dnid hangs in the middle of nid1-nid2 */
+    int dnid, nid1, nid2;
+    Source source;
+} AdaptivityDefinition;
+
+typedef struct ControlDefinitions {
+    struct { double endtim, dtmin, endeng, endmas, nosol; int endcyc; Source source; bool given; } termination;
+    struct { double dtinit, tssfac, tslimt, dt2ms, dt2msf; int isdo, lctm, erode, ms1st, dt2mslc, imscl, rmscl, ihdo; double emscl; Source source; bool given; } timestep;
+    struct { int ihq; double qh; Source source; bool given; } hourglass;
+    struct { int hgen, rwen, slnten, rylen, irgen, maten, drlen, disen; Source source; bool given; } energy;
+    struct { int osu, inn, pidosu, iacc; double exacc; Source source; bool given; } accuracy;
+    struct { double q1, q2; int type, btype, tstype; Source source; bool given; } bulk_viscosity;
+    struct { double wrpang; int esort, irnxx, istupd, theory, bwc, miter, proj; Source source; bool given; } shell;
+    struct { int npopt, neecho, nrefup, iaccop, ipnint, ikedit, iflush, iprtf; double opifs; Source source; bool given; } output;
+} ControlDefinitions;
+
+/* *DATABASE_<name>: output interval of one result. */
+typedef struct DatabaseDefinition {
+    char name[32]; /* "ABSTAT", "GLSTAT", "BINARY_D3PLOT", ... */
+    double dt; /* interval of time; of BINARY_D3DUMP and BINARY_RUNRSF in cycles */
+    int lcur;  /* curve of intervals over time; 0 none */
+    int npltc; /* BINARY_D3PLOT: > 0 asks for this many states up to ENDTIM, dt is then ENDTIM / NPLTC */
+    Source source;
+} DatabaseDefinition;
+
+typedef struct HistoryDefinition { /* *DATABASE_HISTORY_NODE(_SET) */
+    bool is_set;
+    int id;
+    Source source;
+} HistoryDefinition;
+
+typedef struct SpcDefinition { /* *BOUNDARY_SPC_NODE / _SET (_ID, _BIRTH_DEATH) */
+    bool is_set;
+    int id, cid;
+    int dof[6]; /* x y z rx ry rz, 1 = fixed */
+    double birth, death;
+    Source source;
+} SpcDefinition;
+
+typedef struct PrescribedMotionDefinition {
+    enum { MOTION_NODE, MOTION_SET, MOTION_RIGID } kind;
+    int id, dof, vad, lcid, vid;
+    double sf, death, birth;
+    double offset1, offset2; /* card 2 for |dof| = 9, 10, 11 */
+    Source source;
+} PrescribedMotionDefinition;
+
+typedef struct InitialVelocityDefinition {
+    enum {
+        VELOCITY_ALL,        /* *INITIAL_VELOCITY: nsid (0 = all), nsidex, boxid, irigid */
+        VELOCITY_NODE,       /* *INITIAL_VELOCITY_NODE: id */
+        VELOCITY_GENERATION, /* id of styp; omega about an axis */
+        VELOCITY_RIGID_BODY  /* part id */
+    } kind;
+    int id, styp, nsidex, boxid, irigid, icid, phase, ivatn;
+    double v[3], w[3];  /* translation and rotation rates */
+    double vx_exempt[6]; /* card for exempted nodes: vxe vye vze vxre vyre vzre */
+    double omega, centre[3], axis[3];
+    Source source;
+} InitialVelocityDefinition;
+
+typedef struct NodeLoadDefinition { /* *LOAD_NODE_POINT / _SET */
+    bool is_set;
+    int id, dof, lcid, cid, m1, m2, m3;
+    double sf;
+    Source source;
+} NodeLoadDefinition;
+
+typedef struct SegmentLoadDefinition { /* *LOAD_SEGMENT / _SET (_ID): pressure from curve lcid times sf, arrival time at */
+    bool is_set;
+    int id; /* set id, or 0 */
+    int lcid;
+    double sf, at;
+    int node[4];
+    Source source;
+} SegmentLoadDefinition;
+
+typedef struct BodyLoadDefinition { /* *LOAD_BODY_X/Y/Z */
+    int axis; /* 0, 1, 2 */
+    int lcid, lciddr, cid;
+    double sf, xc, yc, zc;
+    Source source;
+} BodyLoadDefinition;
+
+typedef struct GravityPartDefinition { /* *LOAD_GRAVITY_PART / _SET */
+    bool is_set;
+    int id, dof, lc, lcdr, stga, stgr;
+    double accel;
+    Source source;
+} GravityPartDefinition;
+
+typedef struct DampingDefinition { /* *DAMPING_GLOBAL (part 0) and *DAMPING_PART_MASS(_SET) */
+    bool is_global, is_set;
+    int id, lcid, flag;
+    double sf;              /* factor on the curve, or valdmp of DAMPING_GLOBAL when lcid = 0 */
+    double st[6];           /* scale factors x y z rx ry rz; all zero means all one */
+    Source source;
+} DampingDefinition;
+
+typedef enum AirbagModel { AIRBAG_SIMPLE, AIRBAG_WANG_NEFSKE } AirbagModel;
+
+/* *AIRBAG_<model>(_ID): cards as in the manual; the Source of every card so that messages name the right line. */
+typedef struct AirbagDefinition {
+    AirbagModel model;
+    int id; /* 0 without _ID */
+    char heading[BILLOW_TITLE_LENGTH];
+    int sid, sidtyp, rbid;
+    double vsca, psca, vini, mwd, spsf;
+    double cv, cp, t;
+    int lcid;                            /* SIMPLE: mass flow curve */
+    double mu, area, pe, ro;             /* SIMPLE card 3 */
+    int lou;                             /* SIMPLE card 4 */
+    double text, a, b, mw, gasc, hconv;  /* SIMPLE 4a, WANG_NEFSKE 7 */
+    int lct, lcmt, lcdt;                 /* WANG_NEFSKE 3 */
+    double tvol, iabt;
+    double c23, a23, cp23, ap23;         /* WANG_NEFSKE 4 */
+    int lcc23, lca23, lccp23, lcap23;
+    double gc, pover, ppop, opt;         /* WANG_NEFSKE 5 (pe, ro above) */
+    int lcefr, knkdn;
+    double ioc, ioa, ivol, iro, it;      /* WANG_NEFSKE 6 */
+    int lcbf;
+    Source source, card1, card3, card4, card5, card6, card7;
+} AirbagDefinition;
+
+/* Everything of one deck. Zero-initialise, fill with deck_read (io/read.h), free with definitions_free. */
+typedef struct Definitions {
+    char title[BILLOW_TITLE_LENGTH];
+    bool incomplete; /* a reader reported an error, so records may be missing: "X is not defined" would be its echo */
+    LIST(NodeDefinition) nodes;
+    LIST(ShellDefinition) shells;
+    LIST(PartDefinition) parts;
+    LIST(SectionShellDefinition) sections;
+    LIST(MaterialDefinition) materials;
+    LIST(HourglassDefinition) hourglasses;
+    LIST(SetDefinition) sets;
+    LIST(CurveDefinition) curves;
+    LIST(CoordinateDefinition) coordinates;
+    LIST(VectorDefinition) vectors;
+    LIST(BoxDefinition) boxes;
+    LIST(AdaptivityDefinition) adaptivities;
+    ControlDefinitions control;
+    LIST(DatabaseDefinition) databases;
+    LIST(HistoryDefinition) histories;
+    LIST(SpcDefinition) spcs;
+    LIST(PrescribedMotionDefinition) motions;
+    LIST(InitialVelocityDefinition) velocities;
+    LIST(NodeLoadDefinition) node_loads;
+    LIST(SegmentLoadDefinition) segment_loads;
+    LIST(BodyLoadDefinition) body_loads;
+    LIST(GravityPartDefinition) gravity_parts;
+    LIST(DampingDefinition) dampings;
+    LIST(AirbagDefinition) airbags;
+} Definitions;
+
+void definitions_free(Definitions *definitions);
+
+#endif

@@ -1,0 +1,138 @@
+/* The recorder: the hooks of a run. It decides each cycle what is written, and serves signals, d3kil and progress. */
+#include "solver/recorder.h"
+
+#include <math.h>
+
+#include "io/checkpoint.h"
+#include "solver/schedule.h"
+#include "solver/signals.h"
+
+static const double look_interval = 0.5;         /* seconds between two looks at d3kil */
+static const double energy_warning_share = 0.02; /* of the largest energy */
+
+double recorder_energy_error(const Energies *energy)
+{
+    const double held = energy->kinetic + energy->internal + energy->hourglass + energy->damping + energy->contact;
+    const double given = energy->initial + energy->external_work + energy->airbag_work;
+    return energy->largest > 0.0 ? fabs(held - given) / energy->largest : 0.0;
+}
+
+static void watch_energy(Recorder *recorder, const State *state)
+{
+    if (recorder->energy_warned) return;
+    const double error = recorder_energy_error(state->energy);
+    if (!(error > energy_warning_share)) return;
+    recorder->energy_warned = true;
+    diagnostics_add(recorder->diagnostics, SEVERITY_WARNING, BILLOW_NO_SOURCE, NULL,
+                    "cycle %lld, time %.6g: the energy balance is off by %.1f %% of the largest energy; look at "
+                    "glstat.csv and try a smaller TSSFAC",
+                    (long long)state->clock->cycle, state->clock->time, 100.0 * error);
+    log_write_messages(recorder->log);
+}
+
+static void serve_switch(Recorder *recorder, const Model *model, const State *state, double wall)
+{
+    const SenseSwitch value = signals_read_switch(recorder->switch_file);
+    switch (value) {
+    case SENSE_NONE:
+        return;
+    case SENSE_STOP:
+        recorder->stop = recorder->stopped_by_user = true;
+        break;
+    case SENSE_PRINT:
+        progress_print(&recorder->progress, model, state, wall);
+        progress_finish_line(&recorder->progress);
+        break;
+    case SENSE_CHECKPOINT:
+        recorder->want_checkpoint = true;
+        break;
+    case SENSE_STATE:
+        recorder->want_states = true;
+        break;
+    case SENSE_UNKNOWN:
+        break;
+    }
+    if (value == SENSE_UNKNOWN)
+        log_write_event(recorder->log, state->clock, "%s holds no known switch (sw1 sw2 sw3 sw4): removed",
+                        recorder->switch_file);
+    else
+        log_write_event(recorder->log, state->clock, "sense switch sw%d", (int)value);
+}
+
+static bool recorder_due(void *user, const Model *model, const State *state, bool last)
+{
+    Recorder *recorder = user;
+    const double wall = progress_now();
+    recorder->asked = true;
+    recorder->due = schedule_due(&recorder->plan, state->clock);
+    recorder->want_checkpoint = recorder->want_checkpoint || schedule_checkpoint_due(&recorder->plan, state->clock);
+    if (signals_stop_requested() && !recorder->stop) {
+        recorder->stop = recorder->stopped_by_user = true;
+        log_write_event(recorder->log, state->clock, "stopped by a signal");
+    }
+    if (wall >= recorder->next_look) {
+        recorder->next_look = wall + look_interval;
+        serve_switch(recorder, model, state, wall);
+    }
+    watch_energy(recorder, state);
+    progress_update(&recorder->progress, model, state, wall);
+    return last || recorder->due || recorder->want_states || recorder->want_checkpoint || recorder->stop;
+}
+
+/* Writes the kinds of the mask; all are tried even if one fails. */
+static int write_kinds(Recorder *recorder, unsigned kinds, const Model *model, const State *state, const StepView *view)
+{
+    static const struct {
+        unsigned kind;
+        int (*write)(Results *results, const Model *model, const State *state, const StepView *view);
+    } writers[] = {
+        {SCHEDULE_GLSTAT, results_write_glstat}, {SCHEDULE_ABSTAT, results_write_abstat},
+        {SCHEDULE_NODOUT, results_write_nodout}, {SCHEDULE_RBDOUT, results_write_rbdout},
+        {SCHEDULE_RCFORC, results_write_rcforc}, {SCHEDULE_RWFORC, results_write_rwforc},
+        {SCHEDULE_MATSUM, results_write_matsum}, {SCHEDULE_STATES, results_write_state},
+    };
+    int failed = 0;
+    for (size_t i = 0; i < sizeof writers / sizeof *writers; i++)
+        if (kinds & writers[i].kind) failed |= writers[i].write(recorder->results, model, state, view);
+    return failed ? -1 : 0;
+}
+
+static int recorder_emit(void *user, const Model *model, const State *state, const StepView *view, bool last)
+{
+    Recorder *recorder = user;
+    unsigned kinds = recorder->due;
+    /* The loop emits without asking when it has failed: that last good state is written in full. */
+    if (last || recorder->stop || !recorder->asked) kinds |= schedule_kinds(&recorder->plan);
+    if (recorder->want_states) kinds |= SCHEDULE_STATES;
+    if (write_kinds(recorder, kinds, model, state, view)) recorder->write_failed = true;
+    /* Only results that were due count in the state, so that a stop and a restart leave no trace in its bits. */
+    if (recorder->due & SCHEDULE_STATES) recorder->state->clock->states_written++;
+    schedule_advance(&recorder->plan, recorder->state->clock, recorder->due);
+    recorder->due = 0;
+    recorder->want_states = recorder->asked = false;
+    return recorder->stop || recorder->write_failed ? 1 : 0;
+}
+
+int recorder_write_checkpoint(Recorder *recorder, const Model *model, const State *state)
+{
+    recorder->want_checkpoint = false;
+    if (results_flush(recorder->results) ||
+        checkpoint_write(recorder->checkpoint, model, state, recorder->diagnostics)) {
+        recorder->write_failed = true;
+        return -1;
+    }
+    recorder->checkpoint_cycle = state->clock->cycle;
+    log_write_event(recorder->log, state->clock, "checkpoint %s", recorder->checkpoint);
+    return 0;
+}
+
+static void recorder_completed(void *user, const Model *model, const State *state)
+{
+    Recorder *recorder = user;
+    if (recorder->want_checkpoint || recorder->stop) recorder_write_checkpoint(recorder, model, state);
+}
+
+RunHooks recorder_hooks(Recorder *recorder)
+{
+    return (RunHooks){.user = recorder, .due = recorder_due, .emit = recorder_emit, .completed = recorder_completed};
+}

@@ -1,0 +1,139 @@
+/* The State buffer: layout, start, hash. */
+#include "solver/state.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/kernels.h"
+#include "solver/memory.h"
+
+/* Hands out aligned pieces of the buffer; with a NULL base it only counts. */
+static void *take(unsigned char *base, size_t *used, size_t bytes)
+{
+    size_t start = (*used + 63) / 64 * 64;
+    *used = start + bytes;
+    return base ? base + start : NULL;
+}
+
+static size_t lay_out(const Model *model, State *state)
+{
+    size_t used = 0, nodes = (size_t)model->node_count;
+    unsigned char *base = state->buffer;
+    state->clock = take(base, &used, sizeof *state->clock);
+    state->energy = take(base, &used, sizeof *state->energy);
+    state->x = take(base, &used, 3 * nodes * sizeof *state->x);
+    state->v = take(base, &used, 3 * nodes * sizeof *state->v);
+    state->history = take(base, &used, model->history_size * sizeof *state->history);
+    state->gas = take(base, &used, (size_t)model->airbag_count * sizeof *state->gas);
+    state->part_energy = take(base, &used, (size_t)model->part_count * sizeof *state->part_energy);
+    state->part_hourglass = take(base, &used, (size_t)model->part_count * sizeof *state->part_hourglass);
+    state->group_energy = take(base, &used, (size_t)model->group_count * sizeof *state->group_energy);
+    state->cap_volume = take(base, &used, (size_t)model->airbag_count * sizeof *state->cap_volume);
+    state->rigid = take(base, &used, (size_t)model->rigid_body_count * sizeof *state->rigid);
+    return (used + 63) / 64 * 64;
+}
+
+size_t state_size(const Model *model)
+{
+    State none = {0};
+    return lay_out(model, &none);
+}
+
+void state_bind(const Model *model, State *state) { lay_out(model, state); }
+
+/* Volume and area of every bag at the initial positions, with the very kernels of the step. */
+static int initial_volumes(const Model *model, State *state, double *volume, double *area)
+{
+    const KernelTable *kernels = kernels_select(NULL);
+    double *corner = memory_alloc(model->corner_size + 8, sizeof *corner);
+    if (!corner || !kernels) {
+        memory_free(corner);
+        return -1;
+    }
+    for (int i = 0; i < model->airbag_count; i++)
+        volume[i] = state->cap_volume[i] = surface_cap_volume(&model->airbags[i].closure, state->x, model->origin);
+    for (int g = 0; g < model->group_count; g++) {
+        const ElementGroup *group = &model->groups[g];
+        ChunkSums sums = {0};
+        KernelInput input = {.group = group, .end_block = group->block_count, .x = state->x, .origin = model->origin,
+                             .history = state->history, .corner = corner, .restart_ledger = true};
+        kernels_for(kernels, group)(&input, &sums);
+        if (group->law == LAW_GREEN) {
+            state->group_energy[g] = sums.energy;
+            state->part_energy[group->part] += sums.energy;
+        }
+        if (group->pressure_set < 0) continue;
+        const PressureSet *set = &model->pressure_sets[group->pressure_set];
+        for (int s = 0; s < set->count; s++) {
+            if (set->source[s] >= model->airbag_count) continue;
+            volume[set->source[s]] += set->sign[s] * sums.volume;
+            area[set->source[s]] += sums.area;
+        }
+    }
+    memory_free(corner);
+    return 0;
+}
+
+static int start_gas(const Model *model, State *state)
+{
+    double *volume = memory_alloc((size_t)model->airbag_count + 1, sizeof *volume);
+    double *area = memory_alloc((size_t)model->airbag_count + 1, sizeof *area);
+    int status = volume && area ? initial_volumes(model, state, volume, area) : -1;
+    const char *why; /* an impossible state was reported by the build */
+    for (int i = 0; !status && i < model->airbag_count; i++) {
+        const Airbag *bag = &model->airbags[i];
+        status = gas_initialize(&bag->gas, model->curves, bag->vsca, bag->psca, bag->vini, volume[i], area[i],
+                                &state->gas[i], &why);
+    }
+    memory_free(volume);
+    memory_free(area);
+    return status;
+}
+
+static void start_energies(const Model *model, State *state)
+{
+    Energies *e = state->energy;
+    for (int i = 0; i < model->node_count; i++) {
+        const double *v = state->v + 3 * (ptrdiff_t)i;
+        e->kinetic += 0.5 * model->mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    }
+    for (int p = 0; p < model->part_count; p++) e->internal += state->part_energy[p];
+    e->initial = e->kinetic + e->internal;
+    e->largest = fabs(e->initial);
+    e->ratio = e->ratio_min = e->ratio_max = 1.0;
+}
+
+int state_create(const Model *model, State *state)
+{
+    *state = (State){.size = state_size(model)};
+    state->buffer = memory_alloc(state->size, 1);
+    if (!state->buffer) return -1;
+    state_bind(model, state);
+    memcpy(state->x, model->initial, 3 * (size_t)model->node_count * sizeof *state->x);
+    memcpy(state->v, model->velocity, 3 * (size_t)model->node_count * sizeof *state->v);
+    for (int i = 0; i < model->rigid_body_count; i++) rigid_body_start(&model->rigid_bodies[i], &state->rigid[i]);
+    if (start_gas(model, state)) {
+        state_free(state);
+        return -1;
+    }
+    start_energies(model, state);
+    return 0;
+}
+
+uint64_t state_hash(const State *state)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i + 8 <= state->size; i += 8) {
+        uint64_t word;
+        memcpy(&word, state->buffer + i, sizeof word);
+        hash = (hash ^ word) * 0x100000001b3u;
+        hash ^= hash >> 29; /* words instead of bytes: the shift spreads the high bits */
+    }
+    return hash;
+}
+
+void state_free(State *state)
+{
+    memory_free(state->buffer);
+    *state = (State){0};
+}

@@ -1,0 +1,66 @@
+/* The State: all that changes, in one buffer: copy, hash, checkpoint and restart are one memcpy.
+ * Pointers point into the buffer; they are set anew by state_bind after a copy or a read. */
+#ifndef BILLOW_STATE_H
+#define BILLOW_STATE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "airbag/gas.h"
+#include "solver/model.h"
+
+/* The energy ledger [energy], docs/theory.md section "Energy". */
+typedef struct Energies {
+    double kinetic, internal, hourglass, damping, contact;
+    double external_work, airbag_work;
+    double initial;                 /* kinetic + internal at the start */
+    double largest;                 /* largest total so far, scale of the balance */
+    double ratio, ratio_min, ratio_max;
+    double airbag_half, external_half; /* works up to the half step after t_n */
+    double material_damping;           /* share of damping: DAMP of the laws with a stored energy */
+    double mass_damping;               /* the rest */
+} Energies;
+
+typedef struct Clock {
+    double time;      /* t_n */
+    double step;      /* dt_{n+1/2}, the step last taken */
+    double step_next; /* dt_{n+1/2}, the step to be taken from t_n */
+    double step_first; /* the first step, scale of a collapsing one */
+    double compliance; /* sum of |s|^2/m over the nodes under pressure, of the last cycle */
+    int64_t cycle;
+    double next_states, next_glstat, next_abstat, next_nodout, next_rbdout, next_rcforc, next_rwforc, next_matsum,
+        next_restart; /* times of the next outputs */
+    int64_t states_written;
+} Clock;
+
+typedef struct State {
+    unsigned char *buffer; /* owns everything below */
+    size_t size;           /* bytes */
+    Clock *clock;
+    Energies *energy;
+    double *x;             /* current position (node_count x 3) [L], written by the node pass */
+    double *v;             /* velocity at the half step (node_count x 3) [L/T], written by the node pass */
+    double *history;       /* element histories, layout per group (elements/membrane.h) */
+    GasState *gas;         /* (airbag_count), airbag/gas.h */
+    double *part_energy;   /* internal energy of each part by the stress-work ledger (part_count) */
+    double *part_hourglass;
+    double *group_energy;  /* energy stored in each group at the last cycle (group_count) */
+    double *cap_volume;    /* under the caps of each bag at the last cycle (airbag_count) [L3] */
+    RigidState *rigid;     /* (rigid_body_count), solver/rigid_body.h */
+} State;
+
+/* Bytes that a State of this model needs. */
+size_t state_size(const Model *model);
+
+/* Allocates and initialises the state at time 0 (positions, velocities, gas); 0, or -1 without memory. */
+int state_create(const Model *model, State *state);
+
+/* Sets the pointers into state->buffer (of state->size bytes) for this model. */
+void state_bind(const Model *model, State *state);
+
+/* 64-bit FNV-1a of the buffer: equal bits, equal hash. */
+uint64_t state_hash(const State *state);
+
+void state_free(State *state);
+
+#endif

@@ -1,0 +1,218 @@
+/* The central-difference loop: one call per stage, as in docs/theory.md, Time integration. */
+#define _POSIX_C_SOURCE 200809L
+#include "solver/step.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "elements/membrane.h"
+#include "solver/memory.h"
+#include "solver/team.h"
+#include "solver/workspace.h"
+
+static double wall_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void step_fail(Workspace *w, const char *advice, const char *format, ...)
+{
+    if (w->failure->failed) return;
+    char what[160];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    w->failure->failed = true;
+    snprintf(w->failure->cause, sizeof w->failure->cause, "time %g, cycle %lld: %s", w->state->clock->time,
+             (long long)w->state->clock->cycle, what);
+    snprintf(w->failure->advice, sizeof w->failure->advice, "%s", advice);
+}
+
+/* Chunk number -> group and blocks; chunks of one group follow each other. */
+void step_elements(Workspace *w, int thread, int threads)
+{
+    const Model *m = w->model;
+    int first = (int)((int64_t)m->chunk_count * thread / threads),
+        end = (int)((int64_t)m->chunk_count * (thread + 1) / threads);
+    int g = 0;
+    double step = w->state->clock->step;
+    for (int c = first; c < end; c++) {
+        while (g + 1 < m->group_count && m->groups[g + 1].first_chunk <= c) g++;
+        const ElementGroup *group = &m->groups[g];
+        int block = (c - group->first_chunk) * BILLOW_CHUNK, last = block + BILLOW_CHUNK;
+        KernelInput input = {.group = group,
+                             .first_block = block,
+                             .end_block = last < group->block_count ? last : group->block_count,
+                             .x = w->state->x,
+                             .inverse_step = step > 0.0 ? 1.0 / step : 0.0,
+                             .origin = m->origin,
+                             .history = w->state->history,
+                             .corner = w->corner,
+                             .restart_ledger = w->state->clock->cycle == 0};
+        w->chunks[c] = (ChunkSums){0};
+        kernels_for(w->kernels, group)(&input, &w->chunks[c]);
+    }
+}
+
+static int allocate(Workspace *w)
+{
+    const Model *m = w->model;
+    size_t nodes = 3 * (size_t)m->node_count, sets = (size_t)m->pressure_set_count + 1,
+           bags = (size_t)m->airbag_count + 1, classes = 3 * (size_t)m->loads.class_count + 3,
+           special = (size_t)(m->moving_count - m->free_count);
+    w->node_chunk_count = (m->free_count + BILLOW_NODE_CHUNK - 1) / BILLOW_NODE_CHUNK;
+    w->corner = memory_alloc(m->corner_size + 8, sizeof *w->corner);
+    w->chunks = memory_alloc((size_t)m->chunk_count + 1, sizeof *w->chunks);
+    w->node_sums = memory_alloc((size_t)w->node_chunk_count + 1, sizeof *w->node_sums);
+    w->bag_pressure = memory_alloc(sets, sizeof(double));
+    w->load_pressure = memory_alloc(sets, sizeof(double));
+    w->stagnation = memory_alloc(sets, sizeof(double));
+    w->set_volume = memory_alloc(sets, sizeof(double));
+    w->set_area = memory_alloc(sets, sizeof(double));
+    w->source_pressure = memory_alloc(bags + (size_t)m->segment_load_count, sizeof(double));
+    w->class_gravity = memory_alloc(classes, sizeof(double));
+    w->class_damping = memory_alloc(classes, sizeof(double));
+    w->class_velocity = memory_alloc(classes, sizeof(double));
+    w->bag_volume = memory_alloc(bags, sizeof(double));
+    w->bag_area = memory_alloc(bags, sizeof(double));
+    w->force = memory_alloc(nodes, sizeof(double));
+    w->before = memory_alloc(nodes, sizeof(double));
+    w->acceleration = memory_alloc(nodes, sizeof(double));
+    w->velocity = memory_alloc(nodes, sizeof(double));
+    w->part_kinetic = memory_alloc((size_t)m->part_count + 1, sizeof(double));
+    w->part_momentum = memory_alloc(3 * (size_t)m->part_count + 3, sizeof(double));
+    w->lane_rate = memory_alloc((size_t)m->padded_count + 1, sizeof(double));
+    w->kept_history = memory_alloc((size_t)BILLOW_CHUNK * BILLOW_LANES * 4 * HISTORY_POINT_SIZE, sizeof(double));
+    w->special_kind = memory_alloc(special + 1, 1);
+    void *needed[] = {w->corner, w->chunks, w->node_sums, w->bag_pressure, w->load_pressure, w->stagnation,
+                      w->set_volume, w->set_area, w->source_pressure, w->class_gravity, w->class_damping,
+                      w->class_velocity, w->bag_volume, w->bag_area, w->force, w->before,
+                      w->acceleration, w->velocity, w->part_kinetic, w->part_momentum, w->special_kind, w->lane_rate, w->kept_history};
+    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
+        if (!needed[i]) return -1;
+    return 0;
+}
+
+static void release(Workspace *w)
+{
+    void *blocks[] = {w->corner, w->chunks, w->node_sums, w->bag_pressure, w->load_pressure, w->stagnation,
+                      w->set_volume, w->set_area, w->source_pressure, w->class_gravity, w->class_damping,
+                      w->class_velocity, w->bag_volume, w->bag_area, w->force, w->before,
+                      w->acceleration, w->velocity, w->part_kinetic, w->part_momentum, w->special_kind, w->lane_rate, w->kept_history};
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
+}
+
+static void prepare(Workspace *w)
+{
+    const Model *m = w->model;
+    for (int i = 0; i < m->constraints.hanging_count; i++)
+        if (m->constraints.hanging[i].node >= m->free_count && m->constraints.hanging[i].node < m->moving_count)
+            w->special_kind[m->constraints.hanging[i].node - m->free_count] = 1;
+    for (int b = 0; b < m->rigid_body_count; b++)
+        for (int i = 0; i < m->rigid_bodies[b].node_count; i++)
+            if (m->rigid_bodies[b].node[i] < m->moving_count)
+                w->special_kind[m->rigid_bodies[b].node[i] - m->free_count] = 2;
+    w->general = m->node_class != NULL;
+    for (int i = 0; i < m->airbag_count; i++) w->general |= m->airbags[i].spsf > 0.0;
+    w->closed = true;
+    /* velocities of nodes that never move stay zero; the view shows so */
+    memcpy(w->velocity, w->state->v, 3 * (size_t)m->node_count * sizeof(double));
+}
+
+/* Ends the cycle: the clock moves on. */
+void step_tick(Workspace *w)
+{
+    Clock *clock = w->state->clock;
+    double left = w->model->end_time - clock->time;
+    clock->time = w->plan.dt_next == left ? w->model->end_time : clock->time + w->plan.dt_next;
+    clock->step = w->plan.dt_next;
+    clock->cycle++;
+}
+
+static double lap(double *since)
+{
+    double now = wall_clock(), spent = now - *since;
+    *since = now;
+    return spent;
+}
+
+static void loop(void *context, int thread, Team *team)
+{
+    Workspace *w = context;
+    int threads = team_size(team);
+    double since = wall_clock();
+    StageTimes none = {0}, *times = thread == 0 ? w->times : &none;
+    for (;;) {
+        step_elements(w, thread, threads);
+        times->elements += lap(&since);
+        team_barrier(team);
+        times->waiting += lap(&since);
+        if (thread == 0) step_gas(w);
+        times->gas += lap(&since);
+        team_barrier(team);
+        if (w->failure->failed) break;
+        times->waiting += lap(&since);
+        if (thread == 0) step_special(w);
+        times->special += lap(&since);
+        step_nodes(w, thread, threads);
+        times->nodes += lap(&since);
+        team_barrier(team);
+        times->waiting += lap(&since);
+        if (!w->plan.emit) continue;
+        if (thread == 0) step_emit(w);
+        team_barrier(team);
+        times->output += lap(&since);
+        if (w->failure->failed) break;
+        step_advance_positions(w, thread, threads);
+        times->nodes += lap(&since);
+        team_barrier(team);
+        if (thread == 0) {
+            step_tick(w);
+            if (w->hooks->completed) w->hooks->completed(w->hooks->user, w->model, w->state);
+        }
+        times->output += lap(&since);
+        team_barrier(team);
+        if (w->plan.stop || w->plan.last) break;
+    }
+}
+
+/* The state at a failure, if its positions are finite; otherwise the last one written is the last good one. */
+static void emit_failed(Workspace *w)
+{
+    for (int i = 0; i < 3 * w->model->node_count; i++)
+        if (!isfinite(w->state->x[i]) || !isfinite(w->state->v[i])) return;
+    memcpy(w->velocity, w->state->v, 3 * (size_t)w->model->node_count * sizeof(double));
+    w->plan.last = true;
+    step_emit(w);
+}
+
+int solver_run(const Model *model, State *state, int threads, const RunHooks *hooks, StageTimes *times, Failure *failure)
+{
+    Workspace w = {.model = model, .state = state, .hooks = hooks, .times = times, .failure = failure,
+                   .kernels = kernels_select(NULL)};
+    double start = wall_clock();
+    *failure = (Failure){0};
+    if (!w.kernels) {
+        step_fail(&w, "use v2, v3 or v4, as far as the processor has them, or unset it",
+                  "BILLOW_KERNELS names kernels that are not available here");
+        return -1;
+    }
+    if (allocate(&w)) {
+        step_fail(&w, "use a smaller mesh or a machine with more memory", "no memory for the time loop");
+        release(&w);
+        return -1;
+    }
+    prepare(&w);
+    int count = threads < 1 ? 1 : threads > BILLOW_MAX_THREADS ? BILLOW_MAX_THREADS : threads;
+    if (team_run(&count, loop, &w)) step_fail(&w, "use fewer threads", "no memory for the threads");
+    if (failure->failed) emit_failed(&w);
+    times->total = wall_clock() - start;
+    release(&w);
+    return failure->failed ? -1 : 0;
+}

@@ -1,0 +1,64 @@
+/* The energy ledger at t_n (docs/theory.md, Energy) and its judgement. */
+#include <math.h>
+
+#include "solver/workspace.h"
+
+static NodeSums sum_nodes(const Workspace *w)
+{
+    NodeSums t = {0};
+    for (int c = 0; c <= w->node_chunk_count; c++) {
+        const NodeSums *s = &w->node_sums[c];
+        t.kinetic += s->kinetic;
+        t.bag_before += s->bag_before;
+        t.bag_after += s->bag_after;
+        t.load_before += s->load_before;
+        t.load_after += s->load_after;
+        t.damping += s->damping;
+        t.reaction += s->reaction;
+        t.compliance += s->compliance;
+    }
+    return t;
+}
+
+/* Works up to t_n: what was counted up to the half step before, and half of this cycle's (eq. L4). */
+void step_close_energies(Workspace *w)
+{
+    const Model *m = w->model;
+    Energies *e = w->state->energy;
+    NodeSums t = sum_nodes(w);
+    double before = 0.5 * w->plan.dt_before, after = 0.5 * w->plan.dt_next;
+    e->airbag_half += before * t.bag_before;
+    e->external_half += before * t.load_before + 0.5 * t.reaction;
+    e->airbag_work = e->airbag_half;
+    e->external_work = e->external_half;
+    e->mass_damping += 0.5 * t.damping;
+    e->damping = e->mass_damping + e->material_damping;
+    e->airbag_half += after * t.bag_after;
+    e->external_half += after * t.load_after + 0.5 * t.reaction;
+    e->mass_damping += 0.5 * t.damping;
+    e->kinetic = t.kinetic;
+    e->internal = e->hourglass = 0.0;
+    for (int p = 0; p < m->part_count; p++) {
+        e->internal += w->state->part_energy[p];
+        e->hourglass += w->state->part_hourglass[p];
+    }
+    w->state->clock->compliance = t.compliance;
+    double held = e->kinetic + e->internal + e->hourglass + e->damping + e->contact;
+    double given = e->initial + e->external_work + e->airbag_work;
+    double parts[] = {e->kinetic, fabs(e->internal), e->damping, fabs(e->external_work), fabs(e->airbag_work), fabs(given)};
+    for (int i = 0; i < 6; i++) e->largest = parts[i] > e->largest ? parts[i] : e->largest;
+    e->ratio = given != 0.0 ? held / given : 1.0;
+    if (held == 0.0 && given == 0.0) e->ratio = 1.0;
+    e->ratio_min = e->ratio < e->ratio_min ? e->ratio : e->ratio_min;
+    e->ratio_max = e->ratio > e->ratio_max ? e->ratio : e->ratio_max;
+    w->closed = true;
+    if (!isfinite(held) || !isfinite(given)) {
+        step_fail(w, "look at the last state written; lower TSSFAC, or check loads there", "an energy is not finite");
+        return;
+    }
+    if (fabs(held - given) > m->energy_error_limit * e->largest && e->largest > 0.0)
+        step_fail(w, "the step is unstable or a load is not what was meant: lower TSSFAC, look at the last state; "
+                     "--energy-error-limit raises the limit",
+                  "the energy balance is lost: %.6g held against %.6g given (%.1f %% of the largest energy)", held, given,
+                  100.0 * fabs(held - given) / e->largest);
+}

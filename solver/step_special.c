@@ -1,0 +1,145 @@
+/* Special nodes: supports, prescribed motion, hanging nodes, rigid bodies, point loads, several pressures. */
+#include <math.h>
+#include <string.h>
+
+#include "solver/workspace.h"
+
+enum { LANES = BILLOW_LANES };
+
+/* Forces of the special nodes; stress, bag and load pressure on the velocities before the step for the ledger. */
+static void gather_special(Workspace *w, NodeSums *t, bool after)
+{
+    const Model *m = w->model;
+    const double *v = w->state->v;
+    for (int node = m->free_count; node < m->moving_count; node++) {
+        double *f = w->force + 3 * (ptrdiff_t)node;
+        const double *vn = v + 3 * (ptrdiff_t)node;
+        double stress[3] = {0}, bag_force[3] = {0}, load_force[3] = {0}, area[3] = {0};
+        for (int32_t k = m->corner_start[node]; k < m->corner_start[node + 1]; k++) {
+            const double *c = w->corner + m->corner_list[k];
+            int set = m->corner_set[k];
+            double bag = set < 0 ? 0.0 : w->bag_pressure[set], load = set < 0 ? 0.0 : w->load_pressure[set];
+            for (int i = 0; i < 3; i++) {
+                double s = c[(3 + i) * LANES];
+                stress[i] += c[i * LANES];
+                bag_force[i] += bag * s;
+                load_force[i] += load * s;
+                area[i] += set < 0 ? 0.0 : s;
+            }
+        }
+        for (int i = 0; i < 3; i++) {
+            if (after) {
+                t->bag_after += bag_force[i] * vn[i];
+                t->load_after += load_force[i] * vn[i];
+                continue;
+            }
+            f[i] = stress[i] + (bag_force[i] + load_force[i]);
+            t->bag_before += bag_force[i] * vn[i];
+            t->load_before += load_force[i] * vn[i];
+            t->compliance += area[i] * area[i] * m->inverse_mass[node];
+        }
+    }
+}
+
+/* The caps' pressure on their rims, with --caps-push-rim: the gradient of the cap's volume. */
+static void push_rims(Workspace *w)
+{
+    const Model *m = w->model;
+    for (int i = 0; m->caps_push_rim && i < m->airbag_count; i++)
+        surface_cap_gradient(&m->airbags[i].closure, w->state->x, m->origin, w->state->gas[i].applied, w->force);
+}
+
+/* Newton's law for the special nodes with their class's gravity and damping; rigid nodes are moved by their bodies. */
+static void accelerate(Workspace *w, NodeSums *t)
+{
+    const Model *m = w->model;
+    double dt = w->plan.dt_mean;
+    for (int node = m->free_count; node < m->moving_count; node++) {
+        int class = m->node_class ? m->node_class[node] : 0;
+        double *v = w->state->v + 3 * (ptrdiff_t)node;
+        const double *f = w->force + 3 * (ptrdiff_t)node;
+        for (int k = 0; k < 3; k++) {
+            double old = v[k], d = w->class_damping[3 * class + k] * dt, reference = w->class_velocity[3 * class + k];
+            double force = f[k] * m->inverse_mass[node] + w->class_gravity[3 * class + k];
+            v[k] = (old * (1.0 - 0.5 * d) + d * reference + force * dt) / (1.0 + 0.5 * d);
+            if (w->special_kind[node - m->free_count]) continue; /* hanging or rigid: their work is counted elsewhere */
+            double mean = 0.5 * (old + v[k]);
+            t->damping += m->mass[node] * w->class_damping[3 * class + k] * (mean - reference) * mean * dt;
+        }
+    }
+}
+
+static void move_rigid_bodies(Workspace *w, NodeSums *t)
+{
+    const Model *m = w->model;
+    State *state = w->state;
+    const CyclePlan *plan = &w->plan;
+    for (int i = 0; i < m->rigid_body_count; i++) {
+        const RigidBody *body = &m->rigid_bodies[i];
+        RigidField field = {0};
+        RigidPrescription prescription = {0};
+        RigidWork work = {0};
+        if (m->loads.class_count) /* class 0 is empty */
+            loads_body_at(&m->loads.classes[body->body_class], m->curves, plan->time, field.gravity, field.damping);
+        rigid_body_prescribe(&m->constraints, i, body, &state->rigid[i], m->curves, plan->time, plan->dt_mean,
+                             plan->dt_next, &prescription);
+        rigid_body_step(body, &state->rigid[i], state->x, w->force, &field, &prescription, plan->dt_mean, plan->dt_next,
+                        state->v, &work);
+        t->reaction += work.reaction + work.gravity;
+        t->damping += work.damping;
+        t->kinetic += state->rigid[i].kinetic;
+    }
+}
+
+/* Kinetic energy at t_n of the special nodes, gravity's work on them. */
+static void count_energy(Workspace *w, NodeSums *t)
+{
+    const Model *m = w->model;
+    double share = w->plan.dt_mean > 0.0 ? 0.5 * w->plan.dt_before / w->plan.dt_mean : 0.0;
+    for (int node = m->free_count; node < m->moving_count; node++) {
+        int kind = w->special_kind[node - m->free_count];
+        int class = m->node_class ? m->node_class[node] : 0;
+        const double *v = w->state->v + 3 * (ptrdiff_t)node, *old = w->before + 3 * (ptrdiff_t)node;
+        double a[3], full[3];
+        for (int k = 0; k < 3; k++) {
+            double change = v[k] - old[k];
+            a[k] = w->plan.dt_mean > 0.0 ? change / w->plan.dt_mean : 0.0;
+            full[k] = old[k] + share * change;
+            if (kind) continue;
+            t->kinetic += 0.5 * m->mass[node] * full[k] * full[k];
+            t->load_before += m->mass[node] * w->class_gravity[3 * class + k] * old[k];
+            t->load_after += m->mass[node] * w->class_gravity[3 * class + k] * v[k];
+        }
+        if (!w->plan.emit) continue;
+        for (int k = 0; k < 3; k++) {
+            w->acceleration[3 * node + k] = a[k];
+            w->velocity[3 * node + k] = full[k];
+        }
+    }
+}
+
+void step_special(Workspace *w)
+{
+    const Model *m = w->model;
+    State *state = w->state;
+    const CyclePlan *plan = &w->plan;
+    NodeSums *t = &w->node_sums[w->node_chunk_count];
+    ptrdiff_t first = 3 * (ptrdiff_t)m->free_count, count = 3 * (ptrdiff_t)(m->moving_count - m->free_count);
+    *t = (NodeSums){0};
+    if (count == 0) return;
+    memcpy(w->before + first, state->v + first, (size_t)count * sizeof *state->v);
+    gather_special(w, t, false);
+    push_rims(w);
+    loads_apply_points(&m->loads, m->curves, plan->time, state->x, w->force);
+    constraints_fold_forces(&m->constraints, w->force);
+    accelerate(w, t);
+    constraints_apply(&m->constraints, m->curves, plan->time, plan->dt_mean, plan->dt_next, state->x, m->initial, m->mass,
+                      w->before, state->v, &t->reaction);
+    move_rigid_bodies(w, t);
+    constraints_place_hanging(&m->constraints, state->v);
+    t->reaction += loads_points_work(&m->loads, m->curves, plan->time, state->x, w->before, state->v, plan->dt_mean);
+    gather_special(w, t, true);
+    count_energy(w, t);
+    if (plan->emit) return;
+    for (ptrdiff_t i = first; i < first + count; i++) state->x[i] += plan->dt_next * state->v[i];
+}

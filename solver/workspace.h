@@ -1,0 +1,72 @@
+/* What the step needs beside Model and State: buffers, partial sums, the plan of the cycle. Private to solver/step*.c. */
+#ifndef BILLOW_WORKSPACE_H
+#define BILLOW_WORKSPACE_H
+
+#include <stdbool.h>
+
+#include "elements/kernels.h"
+#include "solver/model.h"
+#include "solver/state.h"
+#include "solver/step.h"
+
+enum { BILLOW_NODE_CHUNK = 256 }; /* nodes in one fixed partial sum */
+
+/* Sums over one chunk of nodes; works in force x velocity, to be multiplied by half a step (eq. L3). */
+typedef struct NodeSums {
+    double kinetic;                 /* m v.v / 2 at t_n */
+    double bag_before, bag_after;   /* airbag pressure on v at n - 1/2 and at n + 1/2 */
+    double load_before, load_after; /* segment loads, point loads and gravity likewise */
+    double damping;                 /* energy taken out by mass damping in this step */
+    double reaction;                /* work of supports and prescribed motion in this step */
+    double compliance;              /* sum of |s|^2 / m, s the area vector of the node */
+} NodeSums;
+
+/* Everything that one cycle decides once for all threads. */
+typedef struct CyclePlan {
+    double time, dt_before, dt_mean, dt_next;
+    bool emit, last, stop;
+} CyclePlan;
+
+typedef struct Workspace {
+    const Model *model;
+    State *state;
+    const RunHooks *hooks;
+    const KernelTable *kernels;
+    StageTimes *times;
+    Failure *failure;
+    double *corner;      /* (corner_size + 8) */
+    ChunkSums *chunks;   /* (chunk_count) */
+    NodeSums *node_sums; /* one for each chunk of free nodes, the last for the special ones */
+    int node_chunk_count; /* chunks of free nodes */
+    double *bag_pressure, *load_pressure; /* of each pressure set */
+    double *set_volume, *set_area;
+    double *source_pressure; /* airbags, then segment loads */
+    double *class_gravity, *class_damping, *class_velocity; /* (class_count x 3) */
+    double *stagnation;  /* SPSF x ambient density by pressure set */
+    double *bag_volume, *bag_area; /* (airbag_count) */
+    double *force;       /* special nodes: pressure and stress forces (node_count x 3); all nodes when emitting */
+    unsigned char *special_kind; /* of the special nodes: 1 hanging, 2 rigid, 0 others (moving - free count) */
+    double *before;      /* velocities of the special nodes at n - 1/2 (node_count x 3) */
+    double *acceleration, *velocity; /* full-step view, (node_count x 3); NULL until the first emit */
+    double *part_kinetic, *part_momentum;
+    double *lane_rate;   /* squared frequency of each padded element (padded_count), filled for the critical chunk */
+    double *kept_history; /* of one chunk */
+    int critical_chunk, critical_group; /* with the largest frequency of this cycle */
+    bool general;        /* body classes or stagnation pressure: the general node loop */
+    bool closed;         /* energies of the last cycle are in the ledger */
+    double element_step; /* stable step of the elements before TSSFAC */
+    CyclePlan plan;
+} Workspace;
+
+/* Phases of the cycle. */
+void step_elements(Workspace *w, int thread, int threads);       /* all threads */
+void step_gas(Workspace *w);                                      /* thread 0: sums, gas, pressures, next step */
+void step_nodes(Workspace *w, int thread, int threads);           /* all threads: free nodes */
+void step_special(Workspace *w);                                  /* thread 0: special nodes */
+void step_tick(Workspace *w);                                     /* thread 0: the clock moves on */
+void step_emit(Workspace *w);                                     /* thread 0: full-step view to the hooks */
+void step_advance_positions(Workspace *w, int thread, int threads); /* all threads, after an emitting cycle */
+void step_close_energies(Workspace *w);                           /* thread 0: ledger at t_n */
+void step_fail(Workspace *w, const char *advice, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+#endif
