@@ -206,7 +206,8 @@ static bool shell_is_open(const Shell *shell)
 /* Open sheets beside closed shells bound no gas and are left out; a bag of nothing else is an error. */
 static int leave_out_open(SurfaceWork *work, const Shell *shell)
 {
-    int closed = 0, open = -1;
+    enum { MOST_WARNINGS = 5 };
+    int closed = 0, open = -1, warned = 0;
     for (int f = 0; f < work->input->facet_count; f++) {
         closed += shell[f].facets > 0 && !shell_is_open(&shell[f]);
         if (open < 0 && shell_is_open(&shell[f])) open = f;
@@ -218,9 +219,11 @@ static int leave_out_open(SurfaceWork *work, const Shell *shell)
     for (int f = 0; f < work->input->facet_count; f++) {
         int flip;
         const Shell *own = &shell[parity_find(&work->parity, f, &flip)];
-        if (own == &shell[f] && shell_is_open(own))
+        bool speak = own == &shell[f] && warned < MOST_WARNINGS;
+        warned += speak && (shell_is_open(own) || own->cap_area > 0.5 * own->area);
+        if (speak && shell_is_open(own))
             report_open(work, &work->loops.loops[own->largest_loop], own->facets, SEVERITY_WARNING);
-        else if (own == &shell[f] && own->cap_area > 0.5 * own->area)
+        else if (speak && own->cap_area > 0.5 * own->area)
             report_large_caps(work, f, own->cap_area / own->area);
         if (!work->active[f] || !shell_is_open(own)) continue;
         work->inner[f] = true;

@@ -44,7 +44,8 @@ int free_graph_build(const EdgeTable *table, FreeGraph *graph)
     graph->node = memory_alloc(2 * count + 1, sizeof *graph->node);
     graph->start = memory_alloc(2 * count + 2, sizeof *graph->start);
     graph->incident = memory_alloc(2 * count + 1, sizeof *graph->incident);
-    if (!graph->edge || !graph->node || !graph->start || !graph->incident) {
+    graph->degree = memory_alloc(2 * count + 1, sizeof *graph->degree);
+    if (!graph->edge || !graph->node || !graph->start || !graph->incident || !graph->degree) {
         free_graph_free(graph);
         return -1;
     }
@@ -54,6 +55,7 @@ int free_graph_build(const EdgeTable *table, FreeGraph *graph)
         for (int side = 0; side < 2; side++) {
             graph->edge[e].end[side] = index_of(graph, graph->edge[e].node[side]);
             start[graph->edge[e].end[side] + 1]++;
+            graph->degree[graph->edge[e].end[side]]++;
         }
     for (int n = 0; n < graph->node_count; n++) start[n + 1] += start[n];
     for (int e = graph->edge_count - 1; e >= 0; e--) /* backwards, and start[n + 1] counts down to the list's begin */
@@ -69,6 +71,7 @@ void free_graph_free(FreeGraph *graph)
     memory_free(graph->node);
     memory_free(graph->start);
     memory_free(graph->incident);
+    memory_free(graph->degree);
     memset(graph, 0, sizeof *graph);
 }
 
@@ -105,6 +108,7 @@ int loop_accept(SurfaceWork *work, FreeGraph *graph, const Step *steps, int coun
         parity_join(&work->parity, graph->edge[steps[0].edge].facet, edge->facet,
                     steps[i].side == steps[0].side ? 1 : -1);
         edge->taken = true;
+        for (int side = 0; side < 2; side++) graph->degree[edge->end[side]]--;
         list->sides[list->side_count++] =
             (LoopSide){edge->node[steps[i].side], edge->facet, steps[i].side == 0 ? 1 : -1};
     }

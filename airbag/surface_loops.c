@@ -5,14 +5,6 @@
 
 #include "solver/memory.h"
 
-/* Number of edges not yet taken at a node. */
-static int degree(const FreeGraph *graph, int node)
-{
-    int count = 0;
-    for (int i = graph->start[node]; i < graph->start[node + 1]; i++) count += !graph->edge[graph->incident[i]].taken;
-    return count;
-}
-
 /* Walks from step through nodes of degree two until a branching node or the start again; marks the edges seen and
  * returns the number of steps. */
 static int walk(const FreeGraph *graph, Step step, bool *seen, Step *steps)
@@ -23,7 +15,7 @@ static int walk(const FreeGraph *graph, Step step, bool *seen, Step *steps)
         seen[step.edge] = true;
         int node = graph->edge[step.edge].end[1 - step.side];
         step.edge = -1;
-        if (degree(graph, node) != 2) break;
+        if (graph->degree[node] != 2) break;
         for (int i = graph->start[node]; i < graph->start[node + 1]; i++) {
             int e = graph->incident[i];
             if (!graph->edge[e].taken && !seen[e]) step = (Step){e, graph->edge[e].end[0] == node ? 0 : 1};
@@ -45,7 +37,7 @@ static void find_arcs(const SurfaceWork *work, const FreeGraph *graph, bool *see
 {
     int used = 0;
     for (int n = 0; n < graph->node_count; n++) {
-        int branches = degree(graph, n);
+        int branches = graph->degree[n];
         if (branches == 0 || branches == 2) continue;
         for (int i = graph->start[n]; i < graph->start[n + 1]; i++) {
             int e = graph->incident[i];

@@ -22,12 +22,12 @@ static double place_on_edge(const double *x, int32_t a, int32_t b, int32_t node)
     return off <= seam_width * seam_width * length ? t : -1.0;
 }
 
-/* Walks from the far end of edge e back to its near end through nodes on the edge, nearest first. Fills steps after the
- * first; returns the number of steps in all, 0 if there is no such chain. */
-static int follow_chain(const SurfaceWork *work, const FreeGraph *graph, int e, Step *steps, int most)
+/* Walks from end side of edge e to its other end through nodes on the edge, nearest first. Returns the number of steps,
+ * 0 if there is no such chain. */
+static int follow_chain(const SurfaceWork *work, const FreeGraph *graph, int e, int from, Step *steps, int most)
 {
     const FreeEdge *base = &graph->edge[e];
-    int at = base->end[0], goal = base->end[1], count = 1;
+    int at = base->end[from], goal = base->end[1 - from], count = 0;
     double reached = 0.0;
     while (at != goal) {
         Step best = {-1, 0};
@@ -36,8 +36,9 @@ static int follow_chain(const SurfaceWork *work, const FreeGraph *graph, int e, 
             const FreeEdge *edge = &graph->edge[graph->incident[i]];
             int side = edge->end[0] == at ? 0 : 1, next = edge->end[1 - side];
             if (edge->taken || graph->incident[i] == e) continue;
-            double t =
-                next == goal ? 1.0 : place_on_edge(work->input->x, base->node[0], base->node[1], edge->node[1 - side]);
+            double t = next == goal ? 1.0
+                                    : place_on_edge(work->input->x, base->node[from], base->node[1 - from],
+                                                    edge->node[1 - side]);
             if (t <= reached || t >= nearest || (t >= 1.0 && next != goal)) continue;
             nearest = t;
             best = (Step){graph->incident[i], side};
@@ -53,18 +54,17 @@ static int follow_chain(const SurfaceWork *work, const FreeGraph *graph, int e, 
 int surface_find_seams(SurfaceWork *work, FreeGraph *graph)
 {
     enum { MOST = 64 }; /* five halvings between neighbours are 33 sides */
-    Step steps[MOST], turned[MOST];
+    Step steps[MOST];
     for (int e = 0; e < graph->edge_count; e++) {
-        if (graph->edge[e].taken) continue;
-        int count = follow_chain(work, graph, e, steps, MOST);
-        if (count < 3) continue;
-        /* the chain runs a -> b, so the closing step goes b -> a: against the edge as it is stored */
-        for (int i = 1; i < count; i++) turned[i - 1] = steps[i];
-        turned[count - 1] = (Step){e, 1};
-        int result = loop_accept(work, graph, turned, count, true);
+        const FreeEdge *edge = &graph->edge[e];
+        if (edge->taken) continue;
+        int from = graph->degree[edge->end[0]] <= graph->degree[edge->end[1]] ? 0 : 1; /* fewer ways to look at */
+        int count = follow_chain(work, graph, e, from, steps, MOST - 1);
+        if (count < 2) continue;
+        steps[count++] = (Step){e, 1 - from}; /* back along the edge itself */
+        int result = loop_accept(work, graph, steps, count, true);
         if (result > 0) {
-            const FreeEdge *edge = &graph->edge[e];
-            report_one_sided(work, edge->node[0], edge->node[1], edge->facet, graph->edge[turned[0].edge].facet);
+            report_one_sided(work, edge->node[0], edge->node[1], edge->facet, graph->edge[steps[0].edge].facet);
         }
         if (result != 0) return -1;
     }

@@ -129,7 +129,7 @@ def draw_shapes(options):
     if scale is not None:
         label = options.color if options.color == "thickness" else f"larger principal {options.color}"
         figure.colorbar(scale, ax=list(panels[0]), shrink=0.7, label=label)
-    figure.savefig(options.output, dpi=options.dpi)
+    figure.savefig(options.output, dpi=options.dpi, bbox_inches="tight")
 
 
 def read_history(path):
@@ -163,7 +163,7 @@ def draw_history(options):
         panel.grid(alpha=0.3)
     if entity and len(set(ids)) > 1:
         panels[0][0].legend(fontsize=8)
-    figure.savefig(options.output, dpi=options.dpi)
+    figure.savefig(options.output, dpi=options.dpi, bbox_inches="tight")
 
 
 def parse_arguments():

@@ -12,13 +12,14 @@ SceneGas scene_air(double pressure, double temperature)
 }
 
 typedef struct HeatCapacities {
-    double cv, cp, density;
+    double cv, cp, density, inflow; /* inflow: T of the card, which must be positive even where nothing flows in */
 } HeatCapacities;
 
 static HeatCapacities find_capacities(const SceneGas *gas)
 {
     double r = scene_gas_constant(gas), cv = r / (gas->gamma - 1);
-    return (HeatCapacities){cv, cv + r, gas->pressure / (r * gas->temperature)};
+    double inflow = gas->inflow_temperature > 0 ? gas->inflow_temperature : gas->temperature;
+    return (HeatCapacities){cv, cv + r, gas->pressure / (r * gas->temperature), inflow};
 }
 
 void scene_write_simple_airbag(SceneText *deck, int part_set, const SceneGas *gas)
@@ -28,7 +29,7 @@ void scene_write_simple_airbag(SceneText *deck, int part_set, const SceneGas *ga
     scene_print(deck, "$      sid    sidtyp      rbid      vsca      psca      vini       mwd      spsf\n");
     SCENE_CARD(deck, part_set, 1, 0, 1, 1, gas->vini, 0, 0);
     scene_print(deck, "$       cv        cp         t      lcid        mu      area        pe        ro\n");
-    SCENE_CARD(deck, heat.cv, heat.cp, gas->inflow_temperature, gas->inflow_curve, gas->vent_coefficient,
+    SCENE_CARD(deck, heat.cv, heat.cp, heat.inflow, gas->inflow_curve, gas->vent_coefficient,
                gas->vent_area, gas->pressure, heat.density);
     scene_print(deck, "$      lou\n");
     SCENE_CARD(deck, 0);
@@ -41,7 +42,7 @@ void scene_write_wang_nefske(SceneText *deck, int part_set, const SceneGas *gas)
     scene_print(deck, "$      sid    sidtyp      rbid      vsca      psca      vini       mwd      spsf\n");
     SCENE_CARD(deck, part_set, 1, 0, 1, 1, gas->vini, 0, 0);
     scene_print(deck, "$       cv        cp         t       lct      lcmt      tvol      lcdt      iabt\n");
-    SCENE_CARD(deck, heat.cv, heat.cp, gas->inflow_temperature, 0, gas->inflow_curve, 0, 0, gas->initial_temperature);
+    SCENE_CARD(deck, heat.cv, heat.cp, heat.inflow, 0, gas->inflow_curve, 0, 0, gas->initial_temperature);
     scene_print(deck, "$      c23     lcc23       a23     lca23      cp23    lccp23      ap23    lcap23\n");
     SCENE_CARD(deck, gas->vent_coefficient, 0, gas->vent_area, 0, 0, 0, 0, 0);
     scene_print(deck, "$       pe        ro        gc     lcefr     pover      ppop       opt     knkdn\n");

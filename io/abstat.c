@@ -12,13 +12,14 @@ const HistoryFormat results_abstat_format = {
 const HistoryFormat results_abstat_parts_format = {
     "abstat_parts.csv", "time,airbag,part,unblocked_area,blocked_area,mass_flow_out", NULL, NULL};
 
-/* Area of a triangle (a, b, c) of points in x. */
-static double triangle_area(const double *a, const double *b, const double *c)
+/* Size of an element's area vector, half the cross product of its diagonals, as in the bag's own area; a triangle's
+ * fourth corner repeats its third. */
+static double element_area(const double *x, const int32_t *node)
 {
     double u[3], w[3];
     for (int i = 0; i < 3; i++) {
-        u[i] = b[i] - a[i];
-        w[i] = c[i] - a[i];
+        u[i] = x[3 * (ptrdiff_t)node[2] + i] - x[3 * (ptrdiff_t)node[0] + i];
+        w[i] = x[3 * (ptrdiff_t)node[3] + i] - x[3 * (ptrdiff_t)node[1] + i];
     }
     double n0 = u[1] * w[2] - u[2] * w[1], n1 = u[2] * w[0] - u[0] * w[2], n2 = u[0] * w[1] - u[1] * w[0];
     return 0.5 * sqrt(n0 * n0 + n1 * n1 + n2 * n2);
@@ -28,14 +29,8 @@ static double triangle_area(const double *a, const double *b, const double *c)
 static void sum_part_areas(const Model *model, const double *x, double *area)
 {
     for (int p = 0; p < model->part_count; p++) area[p] = 0;
-    for (int e = 0; e < model->element_count; e++) {
-        const int32_t *node = model->element_node + 4 * (ptrdiff_t)e;
-        const double *a = x + 3 * (ptrdiff_t)node[0], *b = x + 3 * (ptrdiff_t)node[1];
-        const double *c = x + 3 * (ptrdiff_t)node[2], *d = x + 3 * (ptrdiff_t)node[3];
-        double share = triangle_area(a, b, c);
-        if (node[3] != node[2]) share += triangle_area(a, c, d);
-        area[model->element_part[e]] += share;
-    }
+    for (int e = 0; e < model->element_count; e++)
+        area[model->element_part[e]] += element_area(x, model->element_node + 4 * (ptrdiff_t)e);
 }
 
 static void write_legend(FILE *ascii, const Model *model)

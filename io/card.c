@@ -85,6 +85,18 @@ static void report_field(CardReading *card, const char *name, Field field, const
     card->failed = true;
 }
 
+/* An expression that divides integers with a remainder: as Fortran does it, but seldom as meant. */
+static void warn_of_truncation(CardReading *card, const FieldSpec *spec, Field field)
+{
+    CardReader *reader = card->reader;
+    if (!parameters_note_field(reader->parameters, reader->block, &spec->name)) return;
+    char place[120];
+    describe_place(card, spec->name, field, place, sizeof place);
+    int length = field.length > LONGEST_QUOTE ? LONGEST_QUOTE : (int)field.length;
+    diagnostics_add(reader->diagnostics, SEVERITY_WARNING, card->line->source, reader->block->keyword,
+                    "%s: '%.*s' divides integers and loses a remainder; write 7./2 for 3.5", place, length, field.text);
+}
+
 /* The number of a field that is not blank: written out, a parameter or an expression. False after an error. */
 static bool parse_number(CardReading *card, const FieldSpec *spec, Field field, double *value)
 {
@@ -97,9 +109,11 @@ static bool parse_number(CardReading *card, const FieldSpec *spec, Field field, 
         if (parameters_evaluate(card->reader->parameters, card->reader->block, field.text, field.length, &result,
                                 message, sizeof message)) {
             snprintf(what, sizeof what, "cannot be evaluated: %s", message);
-            report_field(card, spec->name, field, what);
+            if (message[0]) report_field(card, spec->name, field, what);
+            card->failed = true;
             return false;
         }
+        if (result.truncated) warn_of_truncation(card, spec, field);
         *value = result.value;
         return true;
     }
@@ -141,7 +155,10 @@ static void judge_unused(CardReading *card, const FieldSpec *spec, Field field, 
 {
     if (spec->use == FIELD_USED || is_default) return;
     CardReader *reader = card->reader;
-    if (spec->use == FIELD_LISTED && !parameters_note_field(reader->parameters, reader->block, spec)) return;
+    /* one message for a card and for a field of a block: more would repeat it for every line of a long list */
+    const bool told = spec->use == FIELD_REFUSED && card->failed;
+    if (spec->use == FIELD_REFUSED) card->failed = true;
+    if (told || !parameters_note_field(reader->parameters, reader->block, spec)) return;
     char place[120];
     describe_place(card, spec->name, field, place, sizeof place);
     int length = field.length > LONGEST_QUOTE ? LONGEST_QUOTE : (int)field.length;
@@ -153,7 +170,6 @@ static void judge_unused(CardReading *card, const FieldSpec *spec, Field field, 
     diagnostics_add(reader->diagnostics, SEVERITY_ERROR, card->line->source, reader->block->keyword,
                     "%s = %.*s asks for what billow does not have; leave the field blank or %g", place, length,
                     field.text, spec->fallback);
-    card->failed = true;
 }
 
 static void read_number(CardReading *card, const FieldSpec *spec, Field field, void *record)

@@ -1,7 +1,7 @@
 /* Checkpoints: the State buffer on disk, so that a run can go on with the same bits.
  *
- * File: 8 bytes magic, then native 64-bit words: format version, fingerprint of the model, bytes of the state, FNV-1a
- * of the state; then the state's buffer. */
+ * File: 8 bytes magic, then native 64-bit words: format version, fingerprint of the model, bytes of the state, its
+ * state_hash; then the state's buffer. */
 #ifndef BILLOW_CHECKPOINT_H
 #define BILLOW_CHECKPOINT_H
 

@@ -20,6 +20,7 @@ typedef struct Evaluator {
     const char *text;
     size_t length, at;
     int depth;
+    bool truncated; /* an integer division had a remainder */
     ExpressionLookup *lookup;
     const void *context;
     char *message;
@@ -62,7 +63,7 @@ static int set_value(Evaluator *e, double number, bool is_integer, ExpressionVal
 {
     if (!isfinite(number)) return fail_at(e, "a value that is not a finite number");
     if (is_integer && fabs(number) > largest_integer) return fail_at(e, "an integer beyond 2^53");
-    *value = (ExpressionValue){number, is_integer};
+    *value = (ExpressionValue){.value = number, .is_integer = is_integer};
     return 0;
 }
 
@@ -153,6 +154,8 @@ static const struct FunctionName {
     {"sqrt", FUNCTION_SQRT, 1, 1},
     {"float", FUNCTION_FLOAT, 1, 1},
     {"real", FUNCTION_FLOAT, 1, 1},
+    {"ls_real", FUNCTION_FLOAT, 1, 1},
+    {"ls_integer", FUNCTION_INT, 1, 1},
     {"abs", FUNCTION_ABS, 1, 1},
     {"int", FUNCTION_INT, 1, 1},
     {"aint", FUNCTION_AINT, 1, 1},
@@ -310,13 +313,12 @@ static int evaluate_primary(Evaluator *e, ExpressionValue *value)
     return fail_at(e, "a missing number, name or '('");
 }
 
-/* base ** exponent: integers stay integers as in Fortran, where 2 ** (-1) is 0. */
+/* base ** exponent: an integer only if both are and the exponent is not negative; Fortran's 2 ** (-1) = 0 helps nobody.
+ */
 static int apply_power(Evaluator *e, ExpressionValue base, ExpressionValue exponent, ExpressionValue *value)
 {
-    bool integers = base.is_integer && exponent.is_integer;
-    double result = pow(base.value, exponent.value);
-    if (integers && exponent.value < 0 && base.value != 0) result = trunc(result);
-    return set_value(e, result, integers, value);
+    bool integers = base.is_integer && exponent.is_integer && exponent.value >= 0;
+    return set_value(e, pow(base.value, exponent.value), integers, value);
 }
 
 /* A sign binds weaker than a power: -2**2 is -4, and 2**-1 is allowed. */
@@ -354,6 +356,7 @@ static int evaluate_product(Evaluator *e, ExpressionValue *value)
         bool integers = value->is_integer && right.is_integer;
         if (c == '/' && right.value == 0) return fail_at(e, "a division by zero");
         double result = c == '*' ? value->value * right.value : value->value / right.value;
+        if (integers && result != trunc(result)) e->truncated = true;
         if (set_value(e, integers ? trunc(result) : result, integers, value)) return -1;
     }
     return 0;
@@ -383,5 +386,6 @@ int expression_evaluate(const char *text, size_t length, ExpressionLookup *looku
                    .message_length = message_length};
     if (evaluate_sum(&e, value)) return -1;
     if (peek(&e) != '\0') return fail_at(&e, "something that is no operator");
+    value->truncated = e.truncated;
     return 0;
 }

@@ -14,16 +14,15 @@ static const FieldSpec id_fields[] = {CARD_INT("ABID", id, USED, ID_OTHER), CARD
 
 #define AT(member) offsetof(AirbagDefinition, member)
 static const FieldSpec core_fields[] = {
-    CARD_INT("SID", sid, USED, ID_SET),             CARD_INT("SIDTYP", sidtyp, USED, NONE),
-    CARD_INT("RBID", rbid, REFUSED, NONE),        CARD_REAL_OR("VSCA", vsca, 1.0, USED, NONE),
-    CARD_REAL_OR("PSCA", psca, 1.0, USED, NONE),  CARD_REAL("VINI", vini, USED, VOLUME),
-    CARD_REAL("MWD", mwd, USED, RATE),            CARD_REAL("SPSF", spsf, USED, NONE),
+    CARD_INT("SID", sid, USED, ID_SET),          CARD_INT("SIDTYP", sidtyp, USED, NONE),
+    CARD_INT("RBID", rbid, REFUSED, NONE),       CARD_REAL_OR("VSCA", vsca, 1.0, USED, NONE),
+    CARD_REAL_OR("PSCA", psca, 1.0, USED, NONE), CARD_REAL("VINI", vini, USED, VOLUME),
+    CARD_REAL("MWD", mwd, USED, RATE),           CARD_REAL("SPSF", spsf, USED, NONE),
 };
 static const FieldSpec simple3_fields[] = {
-    CARD_REAL("CV", cv, USED, NONE),          CARD_REAL("CP", cp, USED, NONE),
-    CARD_REAL("T", t, USED, TEMPERATURE),     CARD_INT("LCID", lcid, USED, ID_FUNCTION),
-    CARD_REAL("MU", mu, USED, NONE),          CARD_REAL("AREA", area, USED, NONE),
-    CARD_REAL("PE", pe, USED, PRESSURE),      CARD_REAL("RO", ro, USED, DENSITY),
+    CARD_REAL("CV", cv, USED, NONE),           CARD_REAL("CP", cp, USED, NONE),    CARD_REAL("T", t, USED, TEMPERATURE),
+    CARD_INT("LCID", lcid, USED, ID_FUNCTION), CARD_REAL("MU", mu, USED, NONE),    CARD_REAL("AREA", area, USED, NONE),
+    CARD_REAL("PE", pe, USED, PRESSURE),       CARD_REAL("RO", ro, USED, DENSITY),
 };
 static const FieldSpec simple4a_fields[] = {
     CARD_INT("LOU", lou, USED, ID_FUNCTION), CARD_REAL("T_EXT", text, USED, TEMPERATURE),
@@ -37,8 +36,8 @@ static const FieldSpec simple4b_fields[] = {
     CARD_REAL("MW", mw, LISTED, NONE),       CARD_REAL("GASC", gasc, LISTED, NONE),
 };
 static const FieldSpec wang3_fields[] = {
-    CARD_REAL("CV", cv, USED, NONE),          CARD_REAL("CP", cp, USED, NONE),
-    CARD_REAL("T", t, USED, TEMPERATURE),     CARD_INT("LCT", lct, USED, ID_FUNCTION),
+    CARD_REAL("CV", cv, USED, NONE),           CARD_REAL("CP", cp, USED, NONE),
+    CARD_REAL("T", t, USED, TEMPERATURE),      CARD_INT("LCT", lct, USED, ID_FUNCTION),
     CARD_INT("LCMT", lcmt, USED, ID_FUNCTION), CARD_REAL("TVOL", tvol, USED, VOLUME),
     CARD_INT("LCDT", lcdt, USED, ID_FUNCTION), CARD_REAL("IABT", iabt, USED, TEMPERATURE),
 };
@@ -55,19 +54,22 @@ static const FieldSpec wang5_fields[] = {
     CARD_REAL("OPT", opt, USED, NONE),         CARD_INT("KNKDN", knkdn, LISTED, ID_FUNCTION),
 };
 static const FieldSpec wang6_fields[] = {
-    CARD_REAL("IOC", ioc, REFUSED, NONE), CARD_REAL("IOA", ioa, REFUSED, AREA),
-    CARD_REAL("IVOL", ivol, REFUSED, VOLUME), CARD_REAL("IRO", iro, REFUSED, DENSITY),
+    CARD_REAL("IOC", ioc, REFUSED, NONE),      CARD_REAL("IOA", ioa, REFUSED, AREA),
+    CARD_REAL("IVOL", ivol, REFUSED, VOLUME),  CARD_REAL("IRO", iro, REFUSED, DENSITY),
     CARD_REAL("IT", it, REFUSED, TEMPERATURE), CARD_INT("LCBF", lcbf, REFUSED, ID_FUNCTION),
 };
 static const FieldSpec wang6_spare_fields[] = {
-    CARD_REAL("IOC", ioc, LISTED, NONE), CARD_REAL("IOA", ioa, LISTED, AREA),
-    CARD_REAL("IVOL", ivol, LISTED, VOLUME), CARD_REAL("IRO", iro, LISTED, DENSITY),
+    CARD_REAL("IOC", ioc, LISTED, NONE),      CARD_REAL("IOA", ioa, LISTED, AREA),
+    CARD_REAL("IVOL", ivol, LISTED, VOLUME),  CARD_REAL("IRO", iro, LISTED, DENSITY),
     CARD_REAL("IT", it, LISTED, TEMPERATURE), CARD_INT("LCBF", lcbf, LISTED, ID_FUNCTION),
 };
 static const FieldSpec wang7_fields[] = {
-    CARD_REAL("TEXT", text, USED, TEMPERATURE), CARD_REAL("A", a, USED, NONE),
-    CARD_REAL("B", b, USED, NONE),              CARD_REAL("MW", mw, USED, NONE),
-    CARD_REAL("GASC", gasc, USED, NONE),        CARD_REAL("HCONV", hconv, USED, NONE),
+    CARD_REAL("TEXT", text, USED, TEMPERATURE),
+    CARD_REAL("A", a, USED, NONE),
+    CARD_REAL("B", b, USED, NONE),
+    CARD_REAL("MW", mw, USED, NONE),
+    CARD_REAL("GASC", gasc, USED, NONE),
+    CARD_REAL("HCONV", hconv, USED, NONE),
 };
 #undef AT
 
@@ -92,12 +94,6 @@ static const CardSpec wang_cards[] = {
     {"card 6", "if LCMT is not 0; to be left blank", CARD_FIELDS(wang6_spare_fields)},
     {"card 7", "if CV = 0", CARD_FIELDS(wang7_fields)},
 };
-
-/* A field that is an area if positive and a curve's id if negative. */
-static double scale_area(const KeywordRead *read, double value)
-{
-    return keyword_scale(read, value, value < 0.0 ? SCALE_ID_FUNCTION : SCALE_AREA);
-}
 
 /* ID card and card 1. A sensor's cards would follow card 1, so that what comes after it cannot be understood. */
 static int read_core(KeywordRead *read, AirbagDefinition *bag)
@@ -144,12 +140,14 @@ static void read_simple(KeywordRead *read)
     AirbagDefinition bag = {.model = AIRBAG_SIMPLE};
     if (read_core(read, &bag)) return;
     if (keyword_card(read, SIMPLE_CARD3, &bag, true, &bag.card3)) return;
-    bag.area = scale_area(read, bag.area);
-    if (bag.mu < 0.0) bag.mu = keyword_scale(read, bag.mu, SCALE_ID_FUNCTION);
+    if (bag.mu < 0.0 && !keyword_real_id(read, &bag.mu, SCALE_ID_FUNCTION, "MU", bag.card3)) return;
+    if (bag.area < 0.0 && !keyword_real_id(read, &bag.area, SCALE_ID_FUNCTION, "AREA", bag.card3)) return;
+    if (bag.area > 0.0) bag.area = keyword_scale(read, bag.area, SCALE_AREA);
     const bool varying = bag.cv == 0.0;
     const bool more = card_left(read->cards);
     bag.card4 = bag.card3;
-    if ((varying || more) && keyword_card(read, varying ? SIMPLE_CARD4A : SIMPLE_CARD4B, &bag, true, &bag.card4)) return;
+    if ((varying || more) && keyword_card(read, varying ? SIMPLE_CARD4A : SIMPLE_CARD4B, &bag, true, &bag.card4))
+        return;
     keyword_finish(read);
     store_bag(read, &bag);
 }
@@ -159,8 +157,10 @@ static int refuse_features(const KeywordRead *read, const AirbagDefinition *bag)
 {
     int status = 0;
     if (bag->a23 < 0.0) {
-        keyword_error(read, bag->card4, "A23 = %g makes part %g a vent, which billow " BILLOW_VERSION " does not read; give "
-                      "the vent's area", bag->a23, -bag->a23);
+        keyword_error(read, bag->card4,
+                      "A23 = %g makes part %g a vent, which billow " BILLOW_VERSION " does not read; give "
+                      "the vent's area",
+                      bag->a23, -bag->a23);
         status = -1;
     }
     if (bag->opt < 0.0 || bag->opt > 8.0) {
@@ -168,7 +168,8 @@ static int refuse_features(const KeywordRead *read, const AirbagDefinition *bag)
         status = -1;
     }
     if (bag->lcmt < 0 || (bag->lcmt == 0 && bag->tvol != 0.0)) {
-        keyword_error(read, bag->card3, "LCMT is %d, but must name the curve of mass flow or of tank pressure", bag->lcmt);
+        keyword_error(read, bag->card3, "LCMT is %d, but must name the curve of mass flow or of tank pressure",
+                      bag->lcmt);
         status = -1;
     }
     return status;
@@ -188,23 +189,31 @@ static void read_wang_nefske(KeywordRead *read)
     if (bag.cv == 0.0 && keyword_card(read, WANG_CARD7, &bag, true, &bag.card7)) return;
     keyword_finish(read);
     if (refuse_features(read, &bag)) return;
-    if (bag.a23 > 0.0) bag.a23 = scale_area(read, bag.a23);
-    if (bag.hconv < 0.0) bag.hconv = keyword_scale(read, bag.hconv, SCALE_ID_FUNCTION);
+    bag.a23 = keyword_scale(read, bag.a23, SCALE_AREA);
+    if (bag.hconv < 0.0 && !keyword_real_id(read, &bag.hconv, SCALE_ID_FUNCTION, "HCONV", bag.card7)) return;
     if (bag.lcmt == 0)
         keyword_warning(read, bag.card3, "LCMT = 0 and no inflator on card 6: no gas flows into this bag");
     store_bag(read, &bag);
 }
 
 static const KeywordSpec specs[] = {
-    {.name = "*AIRBAG_SIMPLE_AIRBAG_MODEL", .options = {"ID"}, .cards = simple_cards, .card_count = 5,
+    {.name = "*AIRBAG_SIMPLE_AIRBAG_MODEL",
+     .options = {"ID"},
+     .cards = simple_cards,
+     .card_count = 5,
      .read = read_simple,
      .remark = "SIDTYP 0: SID is a segment set, else a part set. MU < 0 and AREA < 0 name curves over the absolute "
                "pressure. The sensor cards of RBID are refused."},
-    {.name = "*AIRBAG_WANG_NEFSKE", .options = {"ID"}, .cards = wang_cards, .card_count = 8, .read = read_wang_nefske,
-     .remark = "Input is a mass flow (LCMT) or a tank pressure (LCMT with TVOL); the inflator of card 6 is refused. GC = 0 "
-               "means 1. LCC23 < 0 names a curve over the pressure ratio; A23 < 0 (vent parts) is refused. OPT 1 to 8 "
-               "switches CP23 and AP23 off; leakage through the fabric itself (FLC, FAC) is refused where it is not "
-               "zero. HCONV < 0 names a curve over time. The options POP, JETTING, MULTIPLE_JETTING and CM are refused."},
+    {.name = "*AIRBAG_WANG_NEFSKE",
+     .options = {"ID"},
+     .cards = wang_cards,
+     .card_count = 8,
+     .read = read_wang_nefske,
+     .remark =
+         "Input is a mass flow (LCMT) or a tank pressure (LCMT with TVOL); the inflator of card 6 is refused. GC = 0 "
+         "means 1. LCC23 < 0 names a curve over the pressure ratio; A23 < 0 (vent parts) is refused. OPT 1 to 8 "
+         "switches CP23 and AP23 off; leakage through the fabric itself (FLC, FAC) is refused where it is not "
+         "zero. HCONV < 0 names a curve over time. The options POP, JETTING, MULTIPLE_JETTING and CM are refused."},
 };
 
 const KeywordFamily keyword_family_airbag = {"Airbags", specs, (int)(sizeof specs / sizeof *specs)};

@@ -2,12 +2,12 @@
 #include "io/keyword_table.h"
 
 #define AT(member) offsetof(SpcDefinition, member)
-#define SPC_FIELDS(name, scale)                                                                     \
-    {                                                                                               \
-        CARD_INT(name, id, USED, scale), CARD_INT("CID", cid, USED, ID_DEFINE),                     \
-            CARD_INT("DOFX", dof[0], USED, NONE), CARD_INT("DOFY", dof[1], USED, NONE),             \
-            CARD_INT("DOFZ", dof[2], USED, NONE), CARD_INT("DOFRX", dof[3], LISTED, NONE),          \
-            CARD_INT("DOFRY", dof[4], LISTED, NONE), CARD_INT("DOFRZ", dof[5], LISTED, NONE),       \
+#define SPC_FIELDS(name, scale)                                                                                        \
+    {                                                                                                                  \
+        CARD_INT(name, id, USED, scale), CARD_INT("CID", cid, USED, ID_DEFINE), CARD_INT("DOFX", dof[0], USED, NONE),  \
+            CARD_INT("DOFY", dof[1], USED, NONE), CARD_INT("DOFZ", dof[2], USED, NONE),                                \
+            CARD_INT("DOFRX", dof[3], LISTED, NONE), CARD_INT("DOFRY", dof[4], LISTED, NONE),                          \
+            CARD_INT("DOFRZ", dof[5], LISTED, NONE),                                                                   \
     }
 static const FieldSpec spc_node_fields[] = SPC_FIELDS("NID", ID_NODE);
 static const FieldSpec spc_set_fields[] = SPC_FIELDS("NSID", ID_SET);
@@ -70,29 +70,31 @@ typedef struct MotionCard {
 } MotionCard;
 
 #define AT(member) offsetof(MotionCard, member)
-#define MOTION_FIELDS(name, scale)                                                                       \
-    {                                                                                                    \
-        CARD_INT(name, motion.id, USED, scale), CARD_INT("DOF", motion.dof, USED, NONE),                 \
-            CARD_INT("VAD", motion.vad, USED, NONE), CARD_INT("LCID", motion.lcid, USED, ID_FUNCTION),   \
-            CARD_REAL_OR("SF", motion.sf, 1.0, USED, NONE), CARD_INT("VID", motion.vid, USED, ID_DEFINE), \
-            CARD_REAL_OR("DEATH", motion.death, 1e28, USED, TIME), CARD_REAL("BIRTH", motion.birth, USED, TIME), \
+#define MOTION_FIELDS(name, scale)                                                                                     \
+    {                                                                                                                  \
+        CARD_INT(name, motion.id, USED, scale), CARD_INT("DOF", motion.dof, USED, NONE),                               \
+            CARD_INT("VAD", motion.vad, USED, NONE), CARD_INT("LCID", motion.lcid, USED, ID_FUNCTION),                 \
+            CARD_REAL_OR("SF", motion.sf, 1.0, USED, NONE), CARD_INT("VID", motion.vid, USED, ID_DEFINE),              \
+            CARD_REAL_OR("DEATH", motion.death, 1e28, USED, TIME), CARD_REAL("BIRTH", motion.birth, USED, TIME),       \
     }
 static const FieldSpec motion_node_fields[] = MOTION_FIELDS("NID", ID_NODE);
 static const FieldSpec motion_set_fields[] = MOTION_FIELDS("NSID", ID_SET);
 static const FieldSpec motion_rigid_fields[] = MOTION_FIELDS("PID", ID_PART);
 static const FieldSpec motion_offset_fields[] = {
-    CARD_REAL("OFFSET1", motion.offset1, REFUSED, LENGTH), CARD_REAL("OFFSET2", motion.offset2, REFUSED, LENGTH),
-    CARD_INT("LRB", lrb, REFUSED, ID_PART),                CARD_INT("NODE1", node1, REFUSED, ID_NODE),
+    CARD_REAL("OFFSET1", motion.offset1, REFUSED, LENGTH),
+    CARD_REAL("OFFSET2", motion.offset2, REFUSED, LENGTH),
+    CARD_INT("LRB", lrb, REFUSED, ID_PART),
+    CARD_INT("NODE1", node1, REFUSED, ID_NODE),
     CARD_INT("NODE2", node2, REFUSED, ID_NODE),
 };
 #undef AT
 
 enum { MOTION_ID };
-#define MOTION_CARDS(fields)                                                                           \
-    {                                                                                                  \
-        {"card 1", "one for each motion", CARD_FIELDS(fields)},                                        \
-            {"card 2", "if |DOF| is 9, 10 or 11 or VAD = 4", CARD_FIELDS(motion_offset_fields)},       \
-            {"ID card", "before each card 1 with ID", CARD_FIELDS(id_fields)},                         \
+#define MOTION_CARDS(fields)                                                                                           \
+    {                                                                                                                  \
+        {"card 1", "one for each motion", CARD_FIELDS(fields)},                                                        \
+            {"card 2", "if |DOF| is 9, 10 or 11 or VAD = 4", CARD_FIELDS(motion_offset_fields)},                       \
+            {"ID card", "before each card 1 with ID", CARD_FIELDS(id_fields)},                                         \
     }
 static const CardSpec motion_node_cards[] = MOTION_CARDS(motion_node_fields);
 static const CardSpec motion_set_cards[] = MOTION_CARDS(motion_set_fields);
@@ -134,16 +136,36 @@ static void read_motion_rigid(KeywordRead *read)
 }
 
 static const KeywordSpec specs[] = {
-    {.name = "*BOUNDARY_SPC_NODE", .options = {"ID", "BIRTH_DEATH"}, .cards = spc_node_cards, .card_count = 3,
-     .read = read_spc_node, .remark = "Membranes have no rotations to hold."},
-    {.name = "*BOUNDARY_SPC_SET", .options = {"ID", "BIRTH_DEATH"}, .cards = spc_set_cards, .card_count = 3,
-     .read = read_spc_set, .remark = "Membranes have no rotations to hold."},
-    {.name = "*BOUNDARY_PRESCRIBED_MOTION_NODE", .options = {"ID"}, .cards = motion_node_cards, .card_count = 3,
-     .read = read_motion_node, .remark = "DOF 1 to 4 and -4, VAD 0, 1 and 2; others are refused."},
-    {.name = "*BOUNDARY_PRESCRIBED_MOTION_SET", .options = {"ID"}, .cards = motion_set_cards, .card_count = 3,
-     .read = read_motion_set, .remark = "DOF 1 to 4 and -4, VAD 0, 1 and 2; others are refused."},
-    {.name = "*BOUNDARY_PRESCRIBED_MOTION_RIGID", .options = {"ID"}, .cards = motion_rigid_cards, .card_count = 3,
-     .read = read_motion_rigid, .remark = "DOF 1 to 8, VAD 0, 1 and 2; others and the option LOCAL are refused."},
+    {.name = "*BOUNDARY_SPC_NODE",
+     .options = {"ID", "BIRTH_DEATH"},
+     .cards = spc_node_cards,
+     .card_count = 3,
+     .read = read_spc_node,
+     .remark = "Membranes have no rotations to hold."},
+    {.name = "*BOUNDARY_SPC_SET",
+     .options = {"ID", "BIRTH_DEATH"},
+     .cards = spc_set_cards,
+     .card_count = 3,
+     .read = read_spc_set,
+     .remark = "Membranes have no rotations to hold."},
+    {.name = "*BOUNDARY_PRESCRIBED_MOTION_NODE",
+     .options = {"ID"},
+     .cards = motion_node_cards,
+     .card_count = 3,
+     .read = read_motion_node,
+     .remark = "DOF 1 to 4 and -4, VAD 0, 1 and 2; others are refused."},
+    {.name = "*BOUNDARY_PRESCRIBED_MOTION_SET",
+     .options = {"ID"},
+     .cards = motion_set_cards,
+     .card_count = 3,
+     .read = read_motion_set,
+     .remark = "DOF 1 to 4 and -4, VAD 0, 1 and 2; others are refused."},
+    {.name = "*BOUNDARY_PRESCRIBED_MOTION_RIGID",
+     .options = {"ID"},
+     .cards = motion_rigid_cards,
+     .card_count = 3,
+     .read = read_motion_rigid,
+     .remark = "DOF 1 to 8, VAD 0, 1 and 2; others and the option LOCAL are refused."},
 };
 
 const KeywordFamily keyword_family_boundary = {"Boundary conditions", specs, (int)(sizeof specs / sizeof *specs)};

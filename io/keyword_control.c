@@ -11,14 +11,10 @@ static const FieldSpec termination_fields[] = {
     CARD_REAL("NOSOL", termination.nosol, LISTED, NONE),
 };
 static const FieldSpec timestep1_fields[] = {
-    CARD_REAL("DTINIT", timestep.dtinit, USED, TIME),
-    CARD_REAL_OR("TSSFAC", timestep.tssfac, 0.9, USED, NONE),
-    CARD_INT("ISDO", timestep.isdo, LISTED, NONE),
-    CARD_REAL("TSLIMT", timestep.tslimt, LISTED, TIME),
-    CARD_REAL("DT2MS", timestep.dt2ms, USED, TIME),
-    CARD_INT("LCTM", timestep.lctm, USED, ID_FUNCTION),
-    CARD_INT("ERODE", timestep.erode, LISTED, NONE),
-    CARD_INT("MS1ST", timestep.ms1st, LISTED, NONE),
+    CARD_REAL("DTINIT", timestep.dtinit, USED, TIME), CARD_REAL_OR("TSSFAC", timestep.tssfac, 0.9, USED, NONE),
+    CARD_INT("ISDO", timestep.isdo, LISTED, NONE),    CARD_REAL("TSLIMT", timestep.tslimt, LISTED, TIME),
+    CARD_REAL("DT2MS", timestep.dt2ms, USED, TIME),   CARD_INT("LCTM", timestep.lctm, USED, ID_FUNCTION),
+    CARD_INT("ERODE", timestep.erode, LISTED, NONE),  CARD_INT("MS1ST", timestep.ms1st, LISTED, NONE),
 };
 static const FieldSpec timestep2_fields[] = {
     CARD_REAL("DT2MSF", timestep.dt2msf, REFUSED, NONE),
@@ -41,7 +37,7 @@ static const FieldSpec energy_fields[] = {
     CARD_INT_OR("DRLEN", energy.drlen, 1, LISTED, NONE),   CARD_INT_OR("DISEN", energy.disen, 1, LISTED, NONE),
 };
 static const FieldSpec accuracy_fields[] = {
-    CARD_INT("OSU", accuracy.osu, LISTED, NONE),        CARD_INT_OR("INN", accuracy.inn, 1, LISTED, NONE),
+    CARD_INT("OSU", accuracy.osu, LISTED, NONE),         CARD_INT_OR("INN", accuracy.inn, 1, LISTED, NONE),
     CARD_INT("PIDOSU", accuracy.pidosu, LISTED, ID_SET), CARD_INT("IACC", accuracy.iacc, LISTED, NONE),
     CARD_REAL("EXACC", accuracy.exacc, LISTED, NONE),
 };
@@ -77,7 +73,7 @@ static const FieldSpec shell3_fields[] = {
     UNUSED_INT("IRQUAD", 4, 3),  UNUSED_REAL("W-MODE", 5, 0), UNUSED_REAL("STRETCH", 6, 0), UNUSED_INT("ICRQ", 7, 0),
 };
 static const FieldSpec shell4_fields[] = {
-    UNUSED_INT("NFAIL1", 0, 0), UNUSED_INT("NFAIL4", 1, 0),  UNUSED_INT("PSNFAIL", 2, 0),  UNUSED_INT("KEEPCS", 3, 0),
+    UNUSED_INT("NFAIL1", 0, 0), UNUSED_INT("NFAIL4", 1, 0),  UNUSED_INT("PSNFAIL", 2, 0), UNUSED_INT("KEEPCS", 3, 0),
     UNUSED_INT("DELFR", 4, 0),  UNUSED_INT("DRCPSID", 5, 0), UNUSED_REAL("DRCPRM", 6, 1), UNUSED_INT("INTPERR", 7, 0),
 };
 static const FieldSpec shell5_fields[] = {
@@ -102,6 +98,17 @@ static const FieldSpec output5_fields[] = {
     UNUSED_INT("MLKBAG", 4, 0), UNUSED_INT("KINENG", 5, 0), UNUSED_INT("ISFCNT", 6, 1),
 };
 
+static const FieldSpec relaxation_fields[] = {
+    UNUSED_INT("NRCYCK", 0, 250),
+    UNUSED_REAL("DRTOL", 1, 0.001),
+    UNUSED_REAL("DRFCTR", 2, 0.995),
+    UNUSED_REAL("DRTERM", 3, 0),
+    UNUSED_REAL("TSSFDR", 4, 0),
+    UNUSED_INT("IRELAL", 5, 0),
+    UNUSED_REAL("EDTTL", 6, 0.04),
+    {"IDRFLG", 'I', 10, offsetof(UnusedCard, i[7]), 0.0, false, FIELD_USED, SCALE_NONE},
+};
+
 static const CardSpec termination_cards[] = {{"card 1", "", CARD_FIELDS(termination_fields)}};
 static const CardSpec timestep_cards[] = {
     {"card 1", "", CARD_FIELDS(timestep1_fields)},
@@ -117,6 +124,7 @@ static const CardSpec shell_cards[] = {
     {"card 3", "optional", CARD_FIELDS(shell3_fields)}, {"card 4", "optional", CARD_FIELDS(shell4_fields)},
     {"card 5", "optional", CARD_FIELDS(shell5_fields)},
 };
+static const CardSpec relaxation_cards[] = {{"card 1", "", CARD_FIELDS(relaxation_fields)}};
 static const CardSpec output_cards[] = {
     {"card 1", "", CARD_FIELDS(output_fields)},          {"card 2", "optional", CARD_FIELDS(output2_fields)},
     {"card 3", "optional", CARD_FIELDS(output3_fields)}, {"card 4", "optional", CARD_FIELDS(output4_fields)},
@@ -129,8 +137,10 @@ static void read_control(KeywordRead *read, bool *given, Source *source, int sto
 {
     UnusedCard unused;
     if (*given)
-        keyword_warning(read, read->cards->block->source, "this keyword is given again; the one before (line %d) no longer "
-                        "counts", source->line);
+        keyword_warning(read, read->cards->block->source,
+                        "this keyword is given again; the one before (line %d) no longer "
+                        "counts",
+                        source->line);
     *given = true;
     ControlDefinitions *control = &read->definitions->control;
     int status = keyword_card(read, 0, control, true, source);
@@ -141,11 +151,11 @@ static void read_control(KeywordRead *read, bool *given, Source *source, int sto
     if (status == 0) keyword_finish(read);
 }
 
-#define CONTROL_READER(member, stored)                                                               \
-    static void read_##member(KeywordRead *read)                                                     \
-    {                                                                                                \
-        ControlDefinitions *control = &read->definitions->control;                                   \
-        read_control(read, &control->member.given, &control->member.source, stored);                 \
+#define CONTROL_READER(member, stored)                                                                                 \
+    static void read_##member(KeywordRead *read)                                                                       \
+    {                                                                                                                  \
+        ControlDefinitions *control = &read->definitions->control;                                                     \
+        read_control(read, &control->member.given, &control->member.source, stored);                                   \
     }
 CONTROL_READER(termination, 1)
 CONTROL_READER(hourglass, 1)
@@ -165,23 +175,64 @@ static void read_timestep(KeywordRead *read)
                       control->timestep.tssfac);
 }
 
+/* Without IDRFLG the keyword only holds settings in store. */
+static void read_relaxation(KeywordRead *read)
+{
+    UnusedCard card;
+    Source source;
+    if (keyword_card(read, 0, &card, true, &source)) return;
+    keyword_finish(read);
+    if (card.i[7] != 0 && card.i[7] != -999)
+        keyword_error(read, source,
+                      "IDRFLG = %d asks for dynamic relaxation, which billow " BILLOW_VERSION
+                      " does not have; set it to 0",
+                      card.i[7]);
+}
+
 static const KeywordSpec specs[] = {
-    {.name = "*CONTROL_TERMINATION", .cards = termination_cards, .card_count = 1, .read = read_termination,
+    {.name = "*CONTROL_TERMINATION",
+     .cards = termination_cards,
+     .card_count = 1,
+     .read = read_termination,
      .remark = "DTMIN is a share of the first step, as in LS-DYNA."},
-    {.name = "*CONTROL_TIMESTEP", .aliases = {"*CONTROL_TIME_STEP"}, .cards = timestep_cards, .card_count = 3,
+    {.name = "*CONTROL_TIMESTEP",
+     .aliases = {"*CONTROL_TIME_STEP"},
+     .cards = timestep_cards,
+     .card_count = 3,
      .read = read_timestep,
-     .remark = "The step is computed from the elements' largest eigenvalues, so ISDO has no say. DT2MS adds mass once, at "
-               "the start."},
-    {.name = "*CONTROL_HOURGLASS", .cards = hourglass_cards, .card_count = 1, .read = read_hourglass,
+     .remark =
+         "The step is computed from the elements' largest eigenvalues, so ISDO has no say. DT2MS adds mass once, at "
+         "the start."},
+    {.name = "*CONTROL_HOURGLASS",
+     .cards = hourglass_cards,
+     .card_count = 1,
+     .read = read_hourglass,
      .remark = "For one-point quadrilaterals."},
-    {.name = "*CONTROL_ENERGY", .cards = energy_cards, .card_count = 1, .read = read_energy,
+    {.name = "*CONTROL_ENERGY",
+     .cards = energy_cards,
+     .card_count = 1,
+     .read = read_energy,
      .remark = "The energy ledger always has all terms."},
-    {.name = "*CONTROL_ACCURACY", .cards = accuracy_cards, .card_count = 1, .read = read_accuracy,
+    {.name = "*CONTROL_ACCURACY",
+     .cards = accuracy_cards,
+     .card_count = 1,
+     .read = read_accuracy,
      .remark = "Membrane kinematics are objective and independent of the node numbering without it."},
-    {.name = "*CONTROL_BULK_VISCOSITY", .cards = viscosity_cards, .card_count = 1, .read = read_bulk_viscosity,
+    {.name = "*CONTROL_BULK_VISCOSITY",
+     .cards = viscosity_cards,
+     .card_count = 1,
+     .read = read_bulk_viscosity,
      .remark = "Membranes have no bulk viscosity."},
-    {.name = "*CONTROL_SHELL", .cards = shell_cards, .card_count = 5, .read = read_shell,
+    {.name = "*CONTROL_SHELL",
+     .cards = shell_cards,
+     .card_count = 5,
+     .read = read_shell,
      .remark = "For shells with bending; ELFORM must be given on the section."},
+    {.name = "*CONTROL_DYNAMIC_RELAXATION",
+     .cards = relaxation_cards,
+     .card_count = 1,
+     .read = read_relaxation,
+     .remark = "IDRFLG may be 0 or -999; dynamic relaxation itself is refused."},
     {.name = "*CONTROL_OUTPUT", .cards = output_cards, .card_count = 5, .read = read_output, .remark = ""},
 };
 

@@ -12,9 +12,9 @@ typedef struct NodesCard {
 
 #define AT(member) offsetof(NodesCard, member)
 static const FieldSpec nodes_fields[] = {
-    CARD_INT("CID", system.id, USED, ID_DEFINE),    CARD_INT("N1", system.node[0], USED, ID_NODE),
-    CARD_INT("N2", system.node[1], USED, ID_NODE),  CARD_INT("N3", system.node[2], USED, ID_NODE),
-    CARD_INT("FLAG", system.flag, USED, NONE),      CARD_TEXT("DIR", dir, 10, USED),
+    CARD_INT("CID", system.id, USED, ID_DEFINE),   CARD_INT("N1", system.node[0], USED, ID_NODE),
+    CARD_INT("N2", system.node[1], USED, ID_NODE), CARD_INT("N3", system.node[2], USED, ID_NODE),
+    CARD_INT("FLAG", system.flag, USED, NONE),     CARD_TEXT("DIR", dir, 10, USED),
 };
 #undef AT
 
@@ -46,10 +46,10 @@ static void read_nodes(KeywordRead *read)
 
 #define AT(member) offsetof(CoordinateDefinition, member)
 static const FieldSpec system1_fields[] = {
-    CARD_INT("CID", id, USED, ID_DEFINE),        CARD_REAL("XO", origin[0], USED, LENGTH),
-    CARD_REAL("YO", origin[1], USED, LENGTH),    CARD_REAL("ZO", origin[2], USED, LENGTH),
-    CARD_REAL("XL", x_point[0], USED, LENGTH),   CARD_REAL("YL", x_point[1], USED, LENGTH),
-    CARD_REAL("ZL", x_point[2], USED, LENGTH),   CARD_INT("CIDL", cidl, USED, ID_DEFINE),
+    CARD_INT("CID", id, USED, ID_DEFINE),      CARD_REAL("XO", origin[0], USED, LENGTH),
+    CARD_REAL("YO", origin[1], USED, LENGTH),  CARD_REAL("ZO", origin[2], USED, LENGTH),
+    CARD_REAL("XL", x_point[0], USED, LENGTH), CARD_REAL("YL", x_point[1], USED, LENGTH),
+    CARD_REAL("ZL", x_point[2], USED, LENGTH), CARD_INT("CIDL", cidl, USED, ID_DEFINE),
 };
 static const FieldSpec system2_fields[] = {
     CARD_REAL("XP", xy_point[0], USED, LENGTH),
@@ -57,10 +57,10 @@ static const FieldSpec system2_fields[] = {
     CARD_REAL("ZP", xy_point[2], USED, LENGTH),
 };
 static const FieldSpec vector_system_fields[] = {
-    CARD_INT("CID", id, USED, ID_DEFINE),      CARD_REAL("XX", x_point[0], USED, NONE),
-    CARD_REAL("YX", x_point[1], USED, NONE),   CARD_REAL("ZX", x_point[2], USED, NONE),
-    CARD_REAL("XV", xy_point[0], USED, NONE),  CARD_REAL("YV", xy_point[1], USED, NONE),
-    CARD_REAL("ZV", xy_point[2], USED, NONE),  CARD_INT("NID", nid, USED, ID_NODE),
+    CARD_INT("CID", id, USED, ID_DEFINE),     CARD_REAL("XX", x_point[0], USED, NONE),
+    CARD_REAL("YX", x_point[1], USED, NONE),  CARD_REAL("ZX", x_point[2], USED, NONE),
+    CARD_REAL("XV", xy_point[0], USED, NONE), CARD_REAL("YV", xy_point[1], USED, NONE),
+    CARD_REAL("ZV", xy_point[2], USED, NONE), CARD_INT("NID", nid, USED, ID_NODE),
 };
 #undef AT
 
@@ -102,10 +102,10 @@ static void read_vector_system(KeywordRead *read)
 
 #define AT(member) offsetof(VectorDefinition, member)
 static const FieldSpec vector_fields[] = {
-    CARD_INT("VID", id, USED, ID_DEFINE),      CARD_REAL("XT", tail[0], USED, LENGTH),
-    CARD_REAL("YT", tail[1], USED, LENGTH),    CARD_REAL("ZT", tail[2], USED, LENGTH),
-    CARD_REAL("XH", head[0], USED, LENGTH),    CARD_REAL("YH", head[1], USED, LENGTH),
-    CARD_REAL("ZH", head[2], USED, LENGTH),    CARD_INT("CID", cid, USED, ID_DEFINE),
+    CARD_INT("VID", id, USED, ID_DEFINE),   CARD_REAL("XT", tail[0], USED, LENGTH),
+    CARD_REAL("YT", tail[1], USED, LENGTH), CARD_REAL("ZT", tail[2], USED, LENGTH),
+    CARD_REAL("XH", head[0], USED, LENGTH), CARD_REAL("YH", head[1], USED, LENGTH),
+    CARD_REAL("ZH", head[2], USED, LENGTH), CARD_INT("CID", cid, USED, ID_DEFINE),
 };
 #undef AT
 
@@ -131,9 +131,9 @@ static void read_vector(KeywordRead *read)
 
 #define AT(member) offsetof(BoxDefinition, member)
 static const FieldSpec box_fields[] = {
-    CARD_INT("BOXID", id, USED, ID_DEFINE),     CARD_REAL("XMN", low[0], USED, LENGTH),
-    CARD_REAL("XMX", high[0], USED, LENGTH),    CARD_REAL("YMN", low[1], USED, LENGTH),
-    CARD_REAL("YMX", high[1], USED, LENGTH),    CARD_REAL("ZMN", low[2], USED, LENGTH),
+    CARD_INT("BOXID", id, USED, ID_DEFINE),  CARD_REAL("XMN", low[0], USED, LENGTH),
+    CARD_REAL("XMX", high[0], USED, LENGTH), CARD_REAL("YMN", low[1], USED, LENGTH),
+    CARD_REAL("YMX", high[1], USED, LENGTH), CARD_REAL("ZMN", low[2], USED, LENGTH),
     CARD_REAL("ZMX", high[2], USED, LENGTH),
 };
 #undef AT
@@ -169,8 +169,10 @@ static void read_box(KeywordRead *read)
             continue;
         }
         if (keyword_transform_turns(read)) {
-            keyword_error(read, card.source, "box %d cannot be turned by *DEFINE_TRANSFORMATION, since boxes lie along the "
-                          "axes; define it in the main deck", card.id);
+            keyword_error(read, card.source,
+                          "box %d cannot be turned by *DEFINE_TRANSFORMATION, since boxes lie along the "
+                          "axes; define it in the main deck",
+                          card.id);
             continue;
         }
         transform_box(read, &card);
@@ -181,15 +183,35 @@ static void read_box(KeywordRead *read)
 }
 
 static const KeywordSpec specs[] = {
-    {.name = "*DEFINE_COORDINATE_NODES", .options = {"TITLE"}, .cards = nodes_cards, .card_count = 1,
-     .read = read_nodes, .remark = ""},
-    {.name = "*DEFINE_COORDINATE_SYSTEM", .options = {"TITLE"}, .cards = system_cards, .card_count = 2,
-     .read = read_system, .remark = ""},
-    {.name = "*DEFINE_COORDINATE_VECTOR", .options = {"TITLE"}, .cards = vector_system_cards, .card_count = 1,
-     .read = read_vector_system, .remark = ""},
-    {.name = "*DEFINE_VECTOR", .options = {"TITLE"}, .cards = vector_cards, .card_count = 1, .read = read_vector,
+    {.name = "*DEFINE_COORDINATE_NODES",
+     .options = {"TITLE"},
+     .cards = nodes_cards,
+     .card_count = 1,
+     .read = read_nodes,
+     .remark = ""},
+    {.name = "*DEFINE_COORDINATE_SYSTEM",
+     .options = {"TITLE"},
+     .cards = system_cards,
+     .card_count = 2,
+     .read = read_system,
+     .remark = ""},
+    {.name = "*DEFINE_COORDINATE_VECTOR",
+     .options = {"TITLE"},
+     .cards = vector_system_cards,
+     .card_count = 1,
+     .read = read_vector_system,
+     .remark = ""},
+    {.name = "*DEFINE_VECTOR",
+     .options = {"TITLE"},
+     .cards = vector_cards,
+     .card_count = 1,
+     .read = read_vector,
      .remark = "The option NODES is refused."},
-    {.name = "*DEFINE_BOX", .options = {"TITLE"}, .cards = box_cards, .card_count = 1, .read = read_box,
+    {.name = "*DEFINE_BOX",
+     .options = {"TITLE"},
+     .cards = box_cards,
+     .card_count = 1,
+     .read = read_box,
      .remark = "The options ADAPTIVE, LOCAL and others are refused."},
 };
 

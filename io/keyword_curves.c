@@ -107,12 +107,15 @@ static void read_curve(KeywordRead *read)
     if (status == 0 && !keyword_check_id(read, card.id, "LCID", card.source)) status = -1;
     if (status == 0) status = read_points(read, &card);
     if (status == 0 && card.sfa < 0.0) {
-        keyword_error(read, card.source, "SFA is %g; write the abscissae in rising order with a positive factor", card.sfa);
+        keyword_error(read, card.source, "SFA is %g; write the abscissae in rising order with a positive factor",
+                      card.sfa);
         status = -1;
     }
     if (status == 0 && card.dattyp == 1 && !rises(&card)) {
-        keyword_warning(read, card.source, "curve %d is general x-y data (DATTYP = 1) whose abscissae do not rise; no field "
-                        "of billow can use it, and it is left out", card.id);
+        keyword_warning(read, card.source,
+                        "curve %d is general x-y data (DATTYP = 1) whose abscissae do not rise; no field "
+                        "of billow can use it, and it is left out",
+                        card.id);
         status = -1;
     }
     if (status == 0) status = check_points(read, &card);
@@ -123,15 +126,22 @@ static void read_curve(KeywordRead *read)
     }
     *curve = card;
     if (units_change(read))
-        keyword_warning(read, card.source, "curve %d is not converted by *INCLUDE_TRANSFORM's unit factors; set SFA and SFO "
-                        "for the units of the main deck", card.id);
+        keyword_warning(read, card.source,
+                        "curve %d is not converted by *INCLUDE_TRANSFORM's unit factors; set SFA and SFO "
+                        "for the units of the main deck",
+                        card.id);
 }
 
 static const KeywordSpec specs[] = {
-    {.name = "*DEFINE_CURVE", .options = {"TITLE"}, .cards = cards, .card_count = 2, .read = read_curve,
-     .remark = "Points stand in columns of 20. The value is SFO (O1 + OFFO) at SFA (A1 + OFFA), constant beyond the ends. "
-               "Decreasing abscissae are an error unless DATTYP = 1. Unit factors of *INCLUDE_TRANSFORM do not act on "
-               "curves, which is warned of."},
+    {.name = "*DEFINE_CURVE",
+     .options = {"TITLE"},
+     .cards = cards,
+     .card_count = 2,
+     .read = read_curve,
+     .remark =
+         "Points stand in columns of 20. The value is SFO (O1 + OFFO) at SFA (A1 + OFFA), constant beyond the ends. "
+         "Decreasing abscissae are an error unless DATTYP = 1. Unit factors of *INCLUDE_TRANSFORM do not act on "
+         "curves, which is warned of."},
 };
 
 const KeywordFamily keyword_family_curves = {"Curves", specs, (int)(sizeof specs / sizeof *specs)};

@@ -8,10 +8,10 @@ static const FieldSpec global_fields[] = {
     CARD_REAL("STZ", st[2], USED, NONE),       CARD_REAL("SRX", st[3], LISTED, NONE),
     CARD_REAL("SRY", st[4], LISTED, NONE),     CARD_REAL("SRZ", st[5], LISTED, NONE),
 };
-#define PART_MASS_FIELDS(name, scale)                                               \
-    {                                                                               \
-        CARD_INT(name, id, USED, scale), CARD_INT("LCID", lcid, USED, ID_FUNCTION), \
-            CARD_REAL_OR("SF", sf, 1.0, USED, NONE), CARD_INT("FLAG", flag, USED, NONE), \
+#define PART_MASS_FIELDS(name, scale)                                                                                  \
+    {                                                                                                                  \
+        CARD_INT(name, id, USED, scale), CARD_INT("LCID", lcid, USED, ID_FUNCTION),                                    \
+            CARD_REAL_OR("SF", sf, 1.0, USED, NONE), CARD_INT("FLAG", flag, USED, NONE),                               \
     }
 static const FieldSpec part_fields[] = PART_MASS_FIELDS("PID", ID_PART);
 static const FieldSpec set_fields[] = PART_MASS_FIELDS("PSID", ID_SET);
@@ -65,11 +65,20 @@ static void read_part_set(KeywordRead *read)
 }
 
 static const KeywordSpec specs[] = {
-    {.name = "*DAMPING_GLOBAL", .cards = global_cards, .card_count = 1, .read = read_global,
+    {.name = "*DAMPING_GLOBAL",
+     .cards = global_cards,
+     .card_count = 1,
+     .read = read_global,
      .remark = "VALDMP counts if LCID = 0. STX, STY, STZ all zero means 1."},
-    {.name = "*DAMPING_PART_MASS", .cards = part_cards, .card_count = 2, .read = read_part,
+    {.name = "*DAMPING_PART_MASS",
+     .cards = part_cards,
+     .card_count = 2,
+     .read = read_part,
      .remark = "STX, STY, STZ all zero means 1."},
-    {.name = "*DAMPING_PART_MASS_SET", .cards = set_cards, .card_count = 2, .read = read_part_set,
+    {.name = "*DAMPING_PART_MASS_SET",
+     .cards = set_cards,
+     .card_count = 2,
+     .read = read_part_set,
      .remark = "STX, STY, STZ all zero means 1."},
 };
 

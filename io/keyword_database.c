@@ -22,23 +22,24 @@ static const FieldSpec ascii_fields[] = {
     CARD_INT("OPTION4", option[3], LISTED, NONE),
 };
 static const FieldSpec d3plot_fields[] = {
-    CARD_REAL("DT", record.dt, USED, TIME),
-    CARD_INT("LCDT", record.lcur, LISTED, ID_FUNCTION),
-    CARD_INT("BEAM", beam, LISTED, NONE),
-    CARD_INT("NPLTC", record.npltc, USED, NONE),
+    CARD_REAL("DT", record.dt, USED, TIME),     CARD_INT("LCDT", record.lcur, LISTED, ID_FUNCTION),
+    CARD_INT("BEAM", beam, LISTED, NONE),       CARD_INT("NPLTC", record.npltc, USED, NONE),
     CARD_INT("PSETID", psetid, LISTED, ID_SET),
 };
 static const FieldSpec dump_fields[] = {
-    CARD_REAL("CYCL", record.dt, USED, NONE),
-    CARD_INT("NR", nr, LISTED, NONE),
-    CARD_INT("BEAM", beam, LISTED, NONE),
-    CARD_INT("NPLTC", record.npltc, LISTED, NONE),
+    CARD_REAL("CYCL", record.dt, USED, NONE),   CARD_INT("NR", nr, LISTED, NONE),
+    CARD_INT("BEAM", beam, LISTED, NONE),       CARD_INT("NPLTC", record.npltc, LISTED, NONE),
+    CARD_INT("PSETID", psetid, LISTED, ID_SET),
+};
+static const FieldSpec runrsf_fields[] = {
+    CARD_REAL("CYCL", record.dt, LISTED, NONE), CARD_INT("NR", nr, LISTED, NONE),
+    CARD_INT("BEAM", beam, LISTED, NONE),       CARD_INT("NPLTC", record.npltc, LISTED, NONE),
     CARD_INT("PSETID", psetid, LISTED, ID_SET),
 };
 #undef AT
 static const FieldSpec d3plot2_fields[] = {
-    UNUSED_INT("IOOPT", 0, 0),    UNUSED_REAL("RATE", 1, 0),   UNUSED_REAL("CUTOFF", 2, 0),
-    UNUSED_REAL("WINDOW", 3, 0), UNUSED_INT("TYPE", 4, 0), UNUSED_INT("PSET", 5, 0),
+    UNUSED_INT("IOOPT", 0, 0),   UNUSED_REAL("RATE", 1, 0), UNUSED_REAL("CUTOFF", 2, 0),
+    UNUSED_REAL("WINDOW", 3, 0), UNUSED_INT("TYPE", 4, 0),  UNUSED_INT("PSET", 5, 0),
 };
 
 static const CardSpec ascii_cards[] = {{"card 1", "", CARD_FIELDS(ascii_fields)}};
@@ -47,6 +48,7 @@ static const CardSpec d3plot_cards[] = {
     {"card 2", "optional", CARD_FIELDS(d3plot2_fields)},
 };
 static const CardSpec dump_cards[] = {{"card 1", "", CARD_FIELDS(dump_fields)}};
+static const CardSpec runrsf_cards[] = {{"card 1", "", CARD_FIELDS(runrsf_fields)}};
 
 static void read_database(KeywordRead *read)
 {
@@ -75,9 +77,8 @@ typedef struct HistoryCard {
 
 #define AT(member) offsetof(HistoryCard, member)
 static const FieldSpec history_fields[] = {
-    CARD_INT("ID1", id[0], USED, ID_NODE), CARD_INT("ID2", id[1], USED, ID_NODE),
-    CARD_INT("ID3", id[2], USED, ID_NODE), CARD_INT("ID4", id[3], USED, ID_NODE),
-    CARD_INT("ID5", id[4], USED, ID_NODE), CARD_INT("ID6", id[5], USED, ID_NODE),
+    CARD_INT("ID1", id[0], USED, ID_NODE), CARD_INT("ID2", id[1], USED, ID_NODE), CARD_INT("ID3", id[2], USED, ID_NODE),
+    CARD_INT("ID4", id[3], USED, ID_NODE), CARD_INT("ID5", id[4], USED, ID_NODE), CARD_INT("ID6", id[5], USED, ID_NODE),
     CARD_INT("ID7", id[6], USED, ID_NODE), CARD_INT("ID8", id[7], USED, ID_NODE),
 };
 static const FieldSpec history_id_fields[] = {
@@ -130,9 +131,9 @@ static void read_history_sets(KeywordRead *read)
     read_history_entries(read, true);
 }
 
-#define ASCII_RESULT(result)                                                                           \
-    {                                                                                                  \
-        .name = "*DATABASE_" result, .cards = ascii_cards, .card_count = 1, .read = read_database, .remark = "" \
+#define ASCII_RESULT(result)                                                                                           \
+    {                                                                                                                  \
+        .name = "*DATABASE_" result, .cards = ascii_cards, .card_count = 1, .read = read_database, .remark = ""        \
     }
 static const KeywordSpec specs[] = {
     ASCII_RESULT("ABSTAT"),
@@ -142,16 +143,33 @@ static const KeywordSpec specs[] = {
     ASCII_RESULT("RBDOUT"),
     ASCII_RESULT("RCFORC"),
     ASCII_RESULT("RWFORC"),
-    {.name = "*DATABASE_BINARY_D3PLOT", .cards = d3plot_cards, .card_count = 2, .read = read_database,
+    {.name = "*DATABASE_BINARY_D3PLOT",
+     .cards = d3plot_cards,
+     .card_count = 2,
+     .read = read_database,
      .remark = "Interval of the states in results.vtkhdf. NPLTC > 0 gives DT = ENDTIM / NPLTC."},
-    {.name = "*DATABASE_BINARY_D3DUMP", .cards = dump_cards, .card_count = 1, .read = read_database,
+    {.name = "*DATABASE_BINARY_D3DUMP",
+     .cards = dump_cards,
+     .card_count = 1,
+     .read = read_database,
      .remark = "Interval of the checkpoints, in cycles."},
-    {.name = "*DATABASE_BINARY_RUNRSF", .cards = dump_cards, .card_count = 1, .read = read_database,
-     .remark = "Read like BINARY_D3DUMP; the checkpoints follow BINARY_D3DUMP."},
-    {.name = "*DATABASE_HISTORY_NODE", .options = {"ID"}, .cards = history_cards, .card_count = 2,
-     .read = read_history_nodes, .remark = "Nodes written to nodout."},
-    {.name = "*DATABASE_HISTORY_NODE_SET", .options = {"ID"}, .cards = history_set_cards, .card_count = 2,
-     .read = read_history_sets, .remark = ""},
+    {.name = "*DATABASE_BINARY_RUNRSF",
+     .cards = runrsf_cards,
+     .card_count = 1,
+     .read = read_database,
+     .remark = "The checkpoints follow BINARY_D3DUMP; the last one serves for both."},
+    {.name = "*DATABASE_HISTORY_NODE",
+     .options = {"ID"},
+     .cards = history_cards,
+     .card_count = 2,
+     .read = read_history_nodes,
+     .remark = "Nodes written to nodout."},
+    {.name = "*DATABASE_HISTORY_NODE_SET",
+     .options = {"ID"},
+     .cards = history_set_cards,
+     .card_count = 2,
+     .read = read_history_sets,
+     .remark = ""},
 };
 
 const KeywordFamily keyword_family_database = {"Database", specs, (int)(sizeof specs / sizeof *specs)};

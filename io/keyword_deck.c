@@ -17,7 +17,10 @@ static void read_title(KeywordRead *read)
     keyword_finish(read);
 }
 
-#define LOADED(keyword, text) {.name = keyword, .state = KEYWORD_LOADED, .remark = text}
+#define LOADED(keyword, text)                                                                                          \
+    {                                                                                                                  \
+        .name = keyword, .state = KEYWORD_LOADED, .remark = text                                                       \
+    }
 static const KeywordSpec specs[] = {
     LOADED("*KEYWORD", "LONG=Y and I10=Y set the format of all that follows."),
     {.name = "*TITLE", .cards = title_cards, .card_count = 1, .read = read_title, .remark = ""},

@@ -123,9 +123,10 @@ static void check_list(const RecordList *list, Diagnostics *diagnostics)
     memory_free(marked);
 }
 
-#define RECORDS(list, type, name, word, kind)                                                              \
-    {                                                                                                      \
-        (char *)d->list.items, &d->list.count, sizeof(type), offsetof(type, id), offsetof(type, source), name, word, kind \
+#define RECORDS(list, type, name, word, kind)                                                                          \
+    {                                                                                                                  \
+        (char *)d->list.items, &d->list.count, sizeof(type), offsetof(type, id), offsetof(type, source), name, word,   \
+            kind                                                                                                       \
     }
 
 void keyword_check_duplicates(Definitions *definitions, Diagnostics *diagnostics)

@@ -12,7 +12,9 @@ static const FieldSpec card1_fields[] = {
     CARD_REAL("PRAB", fabric.prab, USED, NONE),
 };
 static const FieldSpec card2_fields[] = {
-    CARD_REAL("GAB", fabric.gab, USED, PRESSURE), CARD_GAP, CARD_GAP,
+    CARD_REAL("GAB", fabric.gab, USED, PRESSURE),
+    CARD_GAP,
+    CARD_GAP,
     CARD_REAL("CSE", fabric.cse, USED, NONE),
     CARD_REAL("EL", fabric.el, USED, PRESSURE),
     CARD_REAL("PRL", fabric.prl, USED, NONE),
@@ -20,14 +22,10 @@ static const FieldSpec card2_fields[] = {
     CARD_REAL("DAMP", fabric.damp, USED, NONE),
 };
 static const FieldSpec card3_fields[] = {
-    CARD_REAL("AOPT", fabric.aopt, USED, NONE),
-    CARD_REAL("FLC", fabric.flc, LISTED, NONE),
-    CARD_REAL("FAC", fabric.fac, LISTED, NONE),
-    CARD_REAL("ELA", fabric.ela, LISTED, NONE),
-    CARD_REAL("LNRC", fabric.lnrc, LISTED, NONE),
-    CARD_INT("FORM", fabric.form, USED, NONE),
-    CARD_REAL("FVOPT", fabric.fvopt, LISTED, NONE),
-    CARD_REAL("TSRFAC", fabric.tsrfac, LISTED, NONE),
+    CARD_REAL("AOPT", fabric.aopt, USED, NONE),     CARD_REAL("FLC", fabric.flc, LISTED, NONE),
+    CARD_REAL("FAC", fabric.fac, LISTED, NONE),     CARD_REAL("ELA", fabric.ela, LISTED, NONE),
+    CARD_REAL("LNRC", fabric.lnrc, LISTED, NONE),   CARD_INT("FORM", fabric.form, USED, NONE),
+    CARD_REAL("FVOPT", fabric.fvopt, LISTED, NONE), CARD_REAL("TSRFAC", fabric.tsrfac, LISTED, NONE),
 };
 static const FieldSpec card4_fields[] = {
     CARD_GAP,
@@ -43,7 +41,9 @@ static const FieldSpec card5_fields[] = {
     CARD_REAL("V1", fabric.v1, USED, NONE),
     CARD_REAL("V2", fabric.v2, USED, NONE),
     CARD_REAL("V3", fabric.v3, USED, NONE),
-    CARD_GAP, CARD_GAP, CARD_GAP,
+    CARD_GAP,
+    CARD_GAP,
+    CARD_GAP,
     CARD_REAL("BETA", fabric.beta, USED, NONE),
     CARD_INT("ISREFG", fabric.isrefg, LISTED, NONE),
 };
@@ -95,7 +95,7 @@ static void read_fabric(KeywordRead *read)
         keyword_error(read, third, "FORM = %d is not read by billow " BILLOW_VERSION "; use 0, 1 or 2", fabric->form);
     }
     if (status || !keyword_check_id(read, card.id, "MID", card.source)) return;
-    if (fabric->aopt < 0.0) fabric->aopt = keyword_scale(read, fabric->aopt, SCALE_ID_DEFINE);
+    if (fabric->aopt < 0.0 && !keyword_real_id(read, &fabric->aopt, SCALE_ID_DEFINE, "AOPT", third)) return;
     double a[3] = {fabric->a1, fabric->a2, fabric->a3}, v[3] = {fabric->v1, fabric->v2, fabric->v3};
     keyword_transform_vector(read, a);
     keyword_transform_vector(read, v);
@@ -106,11 +106,16 @@ static void read_fabric(KeywordRead *read)
 }
 
 static const KeywordSpec specs[] = {
-    {.name = "*MAT_FABRIC", .aliases = {"*MAT_034", "*MAT_34"}, .options = {"TITLE"}, .cards = cards, .card_count = 7,
+    {.name = "*MAT_FABRIC",
+     .aliases = {"*MAT_034", "*MAT_34"},
+     .options = {"TITLE"},
+     .cards = cards,
+     .card_count = 7,
      .read = read_fabric,
-     .remark = "FORM 0, 1 and 2; others are refused by name, so cards 6 and 7 are never met. FLC, FAC, ELA, FVOPT, X0, X1 "
-               "and A0REF are for leakage through the fabric, LNRC, RGBRTH, TSRFAC and ISREFG for reference geometries: "
-               "without those they have no effect."},
+     .remark =
+         "FORM 0, 1 and 2; others are refused by name, so cards 6 and 7 are never met. FLC, FAC, ELA, FVOPT, X0, X1 "
+         "and A0REF are for leakage through the fabric, LNRC, RGBRTH, TSRFAC and ISREFG for reference geometries: "
+         "without those they have no effect."},
 };
 
 const KeywordFamily keyword_family_fabric = {"Fabric", specs, (int)(sizeof specs / sizeof *specs)};

@@ -3,8 +3,8 @@
 
 #define AT(member) offsetof(InitialVelocityDefinition, member)
 static const FieldSpec all1_fields[] = {
-    CARD_INT("NSID", id, USED, ID_SET),         CARD_INT("NSIDEX", nsidex, USED, ID_SET),
-    CARD_INT("BOXID", boxid, USED, ID_DEFINE),  CARD_INT("IRIGID", irigid, LISTED, NONE),
+    CARD_INT("NSID", id, USED, ID_SET),        CARD_INT("NSIDEX", nsidex, USED, ID_SET),
+    CARD_INT("BOXID", boxid, USED, ID_DEFINE), CARD_INT("IRIGID", irigid, LISTED, NONE),
     CARD_INT("ICID", icid, USED, ID_DEFINE),
 };
 static const FieldSpec all2_fields[] = {
@@ -14,14 +14,14 @@ static const FieldSpec all2_fields[] = {
 static const FieldSpec all3_fields[] = {
     CARD_REAL("VXE", vx_exempt[0], USED, VELOCITY), CARD_REAL("VYE", vx_exempt[1], USED, VELOCITY),
     CARD_REAL("VZE", vx_exempt[2], USED, VELOCITY), CARD_REAL("VXRE", vx_exempt[3], LISTED, RATE),
-    CARD_REAL("VYRE", vx_exempt[4], LISTED, RATE),    CARD_REAL("VZRE", vx_exempt[5], LISTED, RATE),
+    CARD_REAL("VYRE", vx_exempt[4], LISTED, RATE),  CARD_REAL("VZRE", vx_exempt[5], LISTED, RATE),
 };
-#define VELOCITY_FIELDS(name, scale, turning)                                                                \
-    {                                                                                               \
-        CARD_INT(name, id, USED, scale), CARD_REAL("VX", v[0], USED, VELOCITY),                     \
-            CARD_REAL("VY", v[1], USED, VELOCITY), CARD_REAL("VZ", v[2], USED, VELOCITY),           \
-            CARD_REAL("VXR", w[0], turning, RATE), CARD_REAL("VYR", w[1], turning, RATE),           \
-            CARD_REAL("VZR", w[2], turning, RATE), CARD_INT("ICID", icid, USED, ID_DEFINE),            \
+#define VELOCITY_FIELDS(name, scale, turning)                                                                          \
+    {                                                                                                                  \
+        CARD_INT(name, id, USED, scale), CARD_REAL("VX", v[0], USED, VELOCITY), CARD_REAL("VY", v[1], USED, VELOCITY), \
+            CARD_REAL("VZ", v[2], USED, VELOCITY), CARD_REAL("VXR", w[0], turning, RATE),                              \
+            CARD_REAL("VYR", w[1], turning, RATE), CARD_REAL("VZR", w[2], turning, RATE),                              \
+            CARD_INT("ICID", icid, USED, ID_DEFINE),                                                                   \
     }
 static const FieldSpec node_fields[] = VELOCITY_FIELDS("NID", ID_NODE, LISTED);
 static const FieldSpec rigid_fields[] = VELOCITY_FIELDS("PID", ID_PART, USED);
@@ -107,22 +107,39 @@ static void read_generation(KeywordRead *read)
         int status = keyword_card(read, 0, &card, true, &card.source);
         if (keyword_card(read, 1, &card, status == 0, NULL)) status = -1;
         if (status) continue;
-        if (card.styp >= 1 && card.styp <= 3) card.id = (int)keyword_scale(read, card.id, scales[card.styp]);
-        if (card.axis[0] == -999.0) /* the axis passes through two nodes */
-            for (int i = 1; i < 3; i++) card.axis[i] = keyword_scale(read, card.axis[i], SCALE_ID_NODE);
+        double id = card.id;
+        if (card.styp >= 1 && card.styp <= 3 && !keyword_real_id(read, &id, scales[card.styp], "ID", card.source))
+            continue;
+        card.id = (int)id;
+        if (card.axis[0] == -999.0) { /* the axis passes through two nodes */
+            if (!keyword_real_id(read, &card.axis[1], SCALE_ID_NODE, "NY", card.source)) continue;
+            if (!keyword_real_id(read, &card.axis[2], SCALE_ID_NODE, "NZ", card.source)) continue;
+        }
         keyword_transform_point(read, card.centre);
         store_velocity(read, &card);
     }
 }
 
 static const KeywordSpec specs[] = {
-    {.name = "*INITIAL_VELOCITY", .cards = all_cards, .card_count = 3, .read = read_all,
+    {.name = "*INITIAL_VELOCITY",
+     .cards = all_cards,
+     .card_count = 3,
+     .read = read_all,
      .remark = "NSID = 0 means all nodes. Rigid bodies take the momentum of their nodes."},
-    {.name = "*INITIAL_VELOCITY_NODE", .cards = node_cards, .card_count = 1, .read = read_node,
+    {.name = "*INITIAL_VELOCITY_NODE",
+     .cards = node_cards,
+     .card_count = 1,
+     .read = read_node,
      .remark = "Rigid bodies take the momentum of their nodes."},
-    {.name = "*INITIAL_VELOCITY_RIGID_BODY", .cards = rigid_cards, .card_count = 1, .read = read_rigid_body,
+    {.name = "*INITIAL_VELOCITY_RIGID_BODY",
+     .cards = rigid_cards,
+     .card_count = 1,
+     .read = read_rigid_body,
      .remark = ""},
-    {.name = "*INITIAL_VELOCITY_GENERATION", .cards = generation_cards, .card_count = 2, .read = read_generation,
+    {.name = "*INITIAL_VELOCITY_GENERATION",
+     .cards = generation_cards,
+     .card_count = 2,
+     .read = read_generation,
      .remark = "ID = 0 means everything. With NX = -999 the axis passes through the nodes NY and NZ."},
 };
 

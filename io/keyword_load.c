@@ -4,12 +4,11 @@
 #include "io/keyword_table.h"
 
 #define AT(member) offsetof(NodeLoadDefinition, member)
-#define NODE_LOAD_FIELDS(name, scale)                                                        \
-    {                                                                                        \
-        CARD_INT(name, id, USED, scale), CARD_INT("DOF", dof, USED, NONE),                   \
-            CARD_INT("LCID", lcid, USED, ID_FUNCTION), CARD_REAL_OR("SF", sf, 1.0, USED, NONE), \
-            CARD_INT("CID", cid, USED, ID_DEFINE), CARD_INT("M1", m1, USED, ID_NODE),        \
-            CARD_INT("M2", m2, USED, ID_NODE), CARD_INT("M3", m3, USED, ID_NODE),            \
+#define NODE_LOAD_FIELDS(name, scale)                                                                                  \
+    {                                                                                                                  \
+        CARD_INT(name, id, USED, scale), CARD_INT("DOF", dof, USED, NONE), CARD_INT("LCID", lcid, USED, ID_FUNCTION),  \
+            CARD_REAL_OR("SF", sf, 1.0, USED, NONE), CARD_INT("CID", cid, USED, ID_DEFINE),                            \
+            CARD_INT("M1", m1, USED, ID_NODE), CARD_INT("M2", m2, USED, ID_NODE), CARD_INT("M3", m3, USED, ID_NODE),   \
     }
 static const FieldSpec node_load_fields[] = NODE_LOAD_FIELDS("NODE", ID_NODE);
 static const FieldSpec node_set_load_fields[] = NODE_LOAD_FIELDS("NSID", ID_SET);
@@ -105,9 +104,12 @@ static void read_load_segment_set(KeywordRead *read)
 
 #define AT(member) offsetof(BodyLoadDefinition, member)
 static const FieldSpec body_fields[] = {
-    CARD_INT("LCID", lcid, USED, ID_FUNCTION),       CARD_REAL_OR("SF", sf, 1.0, USED, NONE),
-    CARD_INT("LCIDDR", lciddr, LISTED, ID_FUNCTION), CARD_REAL("XC", xc, LISTED, LENGTH),
-    CARD_REAL("YC", yc, LISTED, LENGTH),             CARD_REAL("ZC", zc, LISTED, LENGTH),
+    CARD_INT("LCID", lcid, USED, ID_FUNCTION),
+    CARD_REAL_OR("SF", sf, 1.0, USED, NONE),
+    CARD_INT("LCIDDR", lciddr, LISTED, ID_FUNCTION),
+    CARD_REAL("XC", xc, LISTED, LENGTH),
+    CARD_REAL("YC", yc, LISTED, LENGTH),
+    CARD_REAL("ZC", zc, LISTED, LENGTH),
     CARD_INT("CID", cid, USED, ID_DEFINE),
 };
 #undef AT
@@ -124,12 +126,11 @@ static void read_load_body(KeywordRead *read)
 }
 
 #define AT(member) offsetof(GravityPartDefinition, member)
-#define GRAVITY_FIELDS(name, scale)                                                               \
-    {                                                                                             \
-        CARD_INT(name, id, USED, scale), CARD_INT("DOF", dof, USED, NONE),                        \
-            CARD_INT("LC", lc, USED, ID_FUNCTION), CARD_REAL("ACCEL", accel, USED, ACCELERATION), \
-            CARD_INT("LCDR", lcdr, LISTED, ID_FUNCTION), CARD_INT("STGA", stga, REFUSED, NONE),    \
-            CARD_INT("STGR", stgr, REFUSED, NONE),                                                 \
+#define GRAVITY_FIELDS(name, scale)                                                                                    \
+    {                                                                                                                  \
+        CARD_INT(name, id, USED, scale), CARD_INT("DOF", dof, USED, NONE), CARD_INT("LC", lc, USED, ID_FUNCTION),      \
+            CARD_REAL("ACCEL", accel, USED, ACCELERATION), CARD_INT("LCDR", lcdr, LISTED, ID_FUNCTION),                \
+            CARD_INT("STGA", stga, REFUSED, NONE), CARD_INT("STGR", stgr, REFUSED, NONE),                              \
     }
 static const FieldSpec gravity_part_fields[] = GRAVITY_FIELDS("PID", ID_PART);
 static const FieldSpec gravity_set_fields[] = GRAVITY_FIELDS("PSID", ID_SET);
@@ -160,27 +161,47 @@ static void read_gravity_set(KeywordRead *read)
     read_gravity(read, true);
 }
 
-#define BODY_LOAD(axis)                                                                                        \
-    {                                                                                                          \
-        .name = "*LOAD_BODY_" axis, .cards = body_cards, .card_count = 1, .read = read_load_body,              \
-        .remark = "A positive value accelerates the model against the axis, as LS-DYNA's base acceleration. "  \
-                  "*LOAD_BODY_PARTS and the rotations RX, RY, RZ are refused."                                 \
+#define BODY_LOAD(axis)                                                                                                \
+    {                                                                                                                  \
+        .name = "*LOAD_BODY_" axis, .cards = body_cards, .card_count = 1, .read = read_load_body,                      \
+        .remark = "A positive value accelerates the model against the axis, as LS-DYNA's base acceleration. "          \
+                  "*LOAD_BODY_PARTS and the rotations RX, RY, RZ are refused."                                         \
     }
 static const KeywordSpec specs[] = {
-    {.name = "*LOAD_NODE_POINT", .cards = node_load_cards, .card_count = 1, .read = read_load_node_point,
+    {.name = "*LOAD_NODE_POINT",
+     .cards = node_load_cards,
+     .card_count = 1,
+     .read = read_load_node_point,
      .remark = "DOF 1 to 4; moments are refused. DOF = 4 follows the normal of M1, M2, M3."},
-    {.name = "*LOAD_NODE_SET", .cards = node_set_load_cards, .card_count = 1, .read = read_load_node_set,
+    {.name = "*LOAD_NODE_SET",
+     .cards = node_set_load_cards,
+     .card_count = 1,
+     .read = read_load_node_set,
      .remark = "DOF 1 to 4; moments are refused. DOF = 4 follows the normal of M1, M2, M3."},
-    {.name = "*LOAD_SEGMENT", .options = {"ID"}, .cards = segment_cards, .card_count = 2, .read = read_load_segment,
+    {.name = "*LOAD_SEGMENT",
+     .options = {"ID"},
+     .cards = segment_cards,
+     .card_count = 2,
+     .read = read_load_segment,
      .remark = "A positive pressure acts against the segment's normal."},
-    {.name = "*LOAD_SEGMENT_SET", .options = {"ID"}, .cards = segment_set_cards, .card_count = 2,
-     .read = read_load_segment_set, .remark = "A positive pressure acts against the segments' normals."},
+    {.name = "*LOAD_SEGMENT_SET",
+     .options = {"ID"},
+     .cards = segment_set_cards,
+     .card_count = 2,
+     .read = read_load_segment_set,
+     .remark = "A positive pressure acts against the segments' normals."},
     BODY_LOAD("X"),
     BODY_LOAD("Y"),
     BODY_LOAD("Z"),
-    {.name = "*LOAD_GRAVITY_PART", .cards = gravity_part_cards, .card_count = 1, .read = read_gravity_part,
+    {.name = "*LOAD_GRAVITY_PART",
+     .cards = gravity_part_cards,
+     .card_count = 1,
+     .read = read_gravity_part,
      .remark = "A positive value accelerates the parts against the axis. LC = 0 means a constant factor of 1."},
-    {.name = "*LOAD_GRAVITY_PART_SET", .cards = gravity_set_cards, .card_count = 1, .read = read_gravity_set,
+    {.name = "*LOAD_GRAVITY_PART_SET",
+     .cards = gravity_set_cards,
+     .card_count = 1,
+     .read = read_gravity_set,
      .remark = "A positive value accelerates the parts against the axis. LC = 0 means a constant factor of 1."},
 };
 

@@ -3,33 +3,21 @@
 
 #define AT(member) offsetof(MaterialDefinition, member)
 static const FieldSpec elastic_fields[] = {
-    CARD_INT("MID", id, USED, ID_MATERIAL),
-    CARD_REAL("RO", ro, USED, DENSITY),
-    CARD_REAL("E", e, USED, PRESSURE),
-    CARD_REAL("PR", pr, USED, NONE),
-    CARD_REAL("DA", da, LISTED, NONE),
-    CARD_REAL("DB", db, LISTED, NONE),
+    CARD_INT("MID", id, USED, ID_MATERIAL), CARD_REAL("RO", ro, USED, DENSITY), CARD_REAL("E", e, USED, PRESSURE),
+    CARD_REAL("PR", pr, USED, NONE),        CARD_REAL("DA", da, LISTED, NONE),  CARD_REAL("DB", db, LISTED, NONE),
     CARD_REAL("K", k, LISTED, NONE),
 };
 static const FieldSpec null_fields[] = {
-    CARD_INT("MID", id, USED, ID_MATERIAL),
-    CARD_REAL("RO", ro, USED, DENSITY),
-    CARD_REAL("PC", pc, LISTED, PRESSURE),
-    CARD_REAL("MU", mu, LISTED, NONE),
-    CARD_REAL("TEROD", terod, LISTED, NONE),
-    CARD_REAL("CEROD", cerod, LISTED, NONE),
-    CARD_REAL("YM", e, LISTED, PRESSURE),
-    CARD_REAL("PR", pr, LISTED, NONE),
+    CARD_INT("MID", id, USED, ID_MATERIAL),  CARD_REAL("RO", ro, USED, DENSITY),
+    CARD_REAL("PC", pc, LISTED, PRESSURE),   CARD_REAL("MU", mu, LISTED, NONE),
+    CARD_REAL("TEROD", terod, LISTED, NONE), CARD_REAL("CEROD", cerod, LISTED, NONE),
+    CARD_REAL("YM", e, LISTED, PRESSURE),    CARD_REAL("PR", pr, LISTED, NONE),
 };
 static const FieldSpec rigid_fields[] = {
-    CARD_INT("MID", id, USED, ID_MATERIAL),
-    CARD_REAL("RO", ro, USED, DENSITY),
-    CARD_REAL("E", rigid.e, LISTED, PRESSURE),
-    CARD_REAL("PR", rigid.pr, LISTED, NONE),
-    CARD_REAL("N", rigid.n, REFUSED, NONE),
-    CARD_REAL("COUPLE", rigid.couple, REFUSED, NONE),
-    CARD_REAL("M", rigid.m, REFUSED, NONE),
-    CARD_TEXT("ALIAS", rigid.alias, 10, REFUSED),
+    CARD_INT("MID", id, USED, ID_MATERIAL),    CARD_REAL("RO", ro, USED, DENSITY),
+    CARD_REAL("E", rigid.e, LISTED, PRESSURE), CARD_REAL("PR", rigid.pr, LISTED, NONE),
+    CARD_REAL("N", rigid.n, REFUSED, NONE),    CARD_REAL("COUPLE", rigid.couple, REFUSED, NONE),
+    CARD_REAL("M", rigid.m, REFUSED, NONE),    CARD_TEXT("ALIAS", rigid.alias, 10, REFUSED),
 };
 static const FieldSpec rigid_constraint_fields[] = {
     CARD_REAL("CMO", rigid.cmo, USED, NONE),
@@ -92,17 +80,31 @@ static void read_rigid(KeywordRead *read)
     keyword_finish(read);
     card.rigid.alias[0] = '\0'; /* blank or a zero, else it was refused */
     /* with CMO = -1 CON1 names a local system */
-    if (card.rigid.cmo < 0.0) card.rigid.con1 = keyword_scale(read, card.rigid.con1, SCALE_ID_DEFINE);
+    if (card.rigid.cmo < 0.0 && !keyword_real_id(read, &card.rigid.con1, SCALE_ID_DEFINE, "CON1", card.source)) return;
     store_material(read, &card);
 }
 
 static const KeywordSpec specs[] = {
-    {.name = "*MAT_ELASTIC", .aliases = {"*MAT_001", "*MAT_1"}, .options = {"TITLE"}, .cards = elastic_cards,
-     .card_count = 1, .read = read_elastic, .remark = "Membranes only. The option FLUID is refused."},
-    {.name = "*MAT_NULL", .aliases = {"*MAT_009", "*MAT_9"}, .options = {"TITLE"}, .cards = null_cards,
-     .card_count = 1, .read = read_null, .remark = "Mass and a place in the bag's surface, no stress."},
-    {.name = "*MAT_RIGID", .aliases = {"*MAT_020", "*MAT_20"}, .options = {"TITLE"}, .cards = rigid_cards,
-     .card_count = 3, .read = read_rigid,
+    {.name = "*MAT_ELASTIC",
+     .aliases = {"*MAT_001", "*MAT_1"},
+     .options = {"TITLE"},
+     .cards = elastic_cards,
+     .card_count = 1,
+     .read = read_elastic,
+     .remark = "Membranes only. The option FLUID is refused."},
+    {.name = "*MAT_NULL",
+     .aliases = {"*MAT_009", "*MAT_9"},
+     .options = {"TITLE"},
+     .cards = null_cards,
+     .card_count = 1,
+     .read = read_null,
+     .remark = "Mass and a place in the bag's surface, no stress."},
+    {.name = "*MAT_RIGID",
+     .aliases = {"*MAT_020", "*MAT_20"},
+     .options = {"TITLE"},
+     .cards = rigid_cards,
+     .card_count = 3,
+     .read = read_rigid,
      .remark = "E and PR serve contact only. Parts of one material are one body each."},
 };
 

@@ -49,11 +49,13 @@ static const FieldSpec shell_fields[] = {
     {"N7", 'I', 8, AT(node[6]), 0.0, false, FIELD_REFUSED, SCALE_ID_NODE},
     {"N8", 'I', 8, AT(node[7]), 0.0, false, FIELD_REFUSED, SCALE_ID_NODE},
 };
-#define SHELL_THICKNESS                                                       \
-    {"THIC1", 'F', 16, AT(thickness[0]), 0.0, false, FIELD_USED, SCALE_LENGTH}, \
-    {"THIC2", 'F', 16, AT(thickness[1]), 0.0, false, FIELD_USED, SCALE_LENGTH}, \
-    {"THIC3", 'F', 16, AT(thickness[2]), 0.0, false, FIELD_USED, SCALE_LENGTH}, \
-    {"THIC4", 'F', 16, AT(thickness[3]), 0.0, false, FIELD_USED, SCALE_LENGTH}
+#define SHELL_THICKNESS                                                                                                \
+    {"THIC1", 'F', 16, AT(thickness[0]), 0.0, false, FIELD_USED, SCALE_LENGTH},                                        \
+        {"THIC2", 'F', 16, AT(thickness[1]), 0.0, false, FIELD_USED, SCALE_LENGTH},                                    \
+        {"THIC3", 'F', 16, AT(thickness[2]), 0.0, false, FIELD_USED, SCALE_LENGTH},                                    \
+    {                                                                                                                  \
+        "THIC4", 'F', 16, AT(thickness[3]), 0.0, false, FIELD_USED, SCALE_LENGTH                                       \
+    }
 static const FieldSpec shell_beta_fields[] = {
     SHELL_THICKNESS,
     {"BETA", 'F', 16, AT(beta), 0.0, false, FIELD_USED, SCALE_NONE},
@@ -108,8 +110,9 @@ static void store_shell(KeywordRead *read, ShellCard *card, bool has_beta, Sourc
     }
     const int written[4] = {card->node[0], card->node[1], card->node[2], card->node[3]};
     if (!reduce_corners(card)) {
-        keyword_error(read, source, "shell %d has no area: its nodes are %d, %d, %d, %d; remove it or correct its nodes",
-                      card->id, written[0], written[1], written[2], written[3]);
+        keyword_error(read, source,
+                      "shell %d has no area: its nodes are %d, %d, %d, %d; remove it or correct its nodes", card->id,
+                      written[0], written[1], written[2], written[3]);
         return;
     }
     ShellDefinition *shell = KEYWORD_APPEND(read, read->definitions->shells);
@@ -128,7 +131,8 @@ static void read_shell(KeywordRead *read)
     const bool mcid = keyword_option(read, SHELL_MCID), beta = keyword_option(read, SHELL_BETA);
     const bool second = mcid || beta || keyword_option(read, SHELL_THICKNESS_OPTION);
     if (mcid && beta) {
-        keyword_error(read, read->cards->block->source, "the options BETA and MCID exclude each other; keep one of them");
+        keyword_error(read, read->cards->block->source,
+                      "the options BETA and MCID exclude each other; keep one of them");
         return;
     }
     while (keyword_more(read) && !read->out_of_memory) {
@@ -163,13 +167,22 @@ static void read_adaptivity(KeywordRead *read)
 }
 
 static const KeywordSpec specs[] = {
-    {.name = "*NODE", .cards = node_cards, .card_count = 1, .read = read_node,
+    {.name = "*NODE",
+     .cards = node_cards,
+     .card_count = 1,
+     .read = read_node,
      .remark = "RC is met by itself: membranes have no rotations, rigid bodies are held by CMO and CON2."},
-    {.name = "*ELEMENT_SHELL", .options = {"BETA", "THICKNESS", "MCID"}, .cards = shell_cards, .card_count = 3,
+    {.name = "*ELEMENT_SHELL",
+     .options = {"BETA", "THICKNESS", "MCID"},
+     .cards = shell_cards,
+     .card_count = 3,
      .read = read_shell,
      .remark = "N4 = 0 or N4 = N3 is a triangle; any other corner that repeats its neighbour is dropped likewise. A "
                "thickness of 0 means the section's. The option OFFSET is refused."},
-    {.name = "*CONSTRAINED_ADAPTIVITY", .cards = adaptivity_cards, .card_count = 1, .read = read_adaptivity,
+    {.name = "*CONSTRAINED_ADAPTIVITY",
+     .cards = adaptivity_cards,
+     .card_count = 1,
+     .read = read_adaptivity,
      .remark = "DNID is tied to the middle of NID1 and NID2."},
 };
 

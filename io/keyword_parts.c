@@ -4,14 +4,10 @@
 #define AT(member) offsetof(PartDefinition, member)
 static const FieldSpec part_heading_fields[] = {CARD_TEXT("HEADING", title, 70, USED)};
 static const FieldSpec part_fields[] = {
-    CARD_INT("PID", id, USED, ID_PART),
-    CARD_INT("SECID", section, USED, ID_OTHER),
-    CARD_INT("MID", material, USED, ID_MATERIAL),
-    CARD_INT("EOSID", eosid, LISTED, ID_MATERIAL),
-    CARD_INT("HGID", hourglass, USED, ID_OTHER),
-    CARD_INT("GRAV", grav, LISTED, NONE),
-    CARD_INT("ADPOPT", adpopt, LISTED, NONE),
-    CARD_INT("TMID", tmid, LISTED, ID_MATERIAL),
+    CARD_INT("PID", id, USED, ID_PART),           CARD_INT("SECID", section, USED, ID_OTHER),
+    CARD_INT("MID", material, USED, ID_MATERIAL), CARD_INT("EOSID", eosid, LISTED, ID_MATERIAL),
+    CARD_INT("HGID", hourglass, USED, ID_OTHER),  CARD_INT("GRAV", grav, LISTED, NONE),
+    CARD_INT("ADPOPT", adpopt, LISTED, NONE),     CARD_INT("TMID", tmid, LISTED, ID_MATERIAL),
 };
 #undef AT
 
@@ -35,24 +31,16 @@ static void read_part(KeywordRead *read)
 
 #define AT(member) offsetof(SectionShellDefinition, member)
 static const FieldSpec section_fields[] = {
-    CARD_INT("SECID", id, USED, ID_OTHER),
-    CARD_INT_OR("ELFORM", elform, 2, USED, NONE),
-    CARD_REAL_OR("SHRF", shrf, 1.0, LISTED, NONE),
-    CARD_REAL_OR("NIP", nip, 2.0, LISTED, NONE),
-    CARD_INT_OR("PROPT", propt, 1, LISTED, NONE),
-    CARD_INT("QR/IRID", qr_irid, LISTED, NONE),
-    CARD_INT("ICOMP", icomp, USED, NONE),
-    CARD_INT_OR("SETYP", setyp, 1, LISTED, NONE),
+    CARD_INT("SECID", id, USED, ID_OTHER),         CARD_INT_OR("ELFORM", elform, 2, USED, NONE),
+    CARD_REAL_OR("SHRF", shrf, 1.0, LISTED, NONE), CARD_REAL_OR("NIP", nip, 2.0, LISTED, NONE),
+    CARD_INT_OR("PROPT", propt, 1, LISTED, NONE),  CARD_INT("QR/IRID", qr_irid, LISTED, NONE),
+    CARD_INT("ICOMP", icomp, USED, NONE),          CARD_INT_OR("SETYP", setyp, 1, LISTED, NONE),
 };
 static const FieldSpec section_thickness_fields[] = {
-    CARD_REAL("T1", t[0], USED, LENGTH),
-    CARD_REAL("T2", t[1], USED, LENGTH),
-    CARD_REAL("T3", t[2], USED, LENGTH),
-    CARD_REAL("T4", t[3], USED, LENGTH),
-    CARD_REAL("NLOC", nloc, LISTED, NONE),
-    CARD_REAL("MAREA", marea, USED, NONE),
-    CARD_REAL("IDOF", idof, LISTED, NONE),
-    CARD_INT("EDGSET", edgset, LISTED, ID_SET),
+    CARD_REAL("T1", t[0], USED, LENGTH),   CARD_REAL("T2", t[1], USED, LENGTH),
+    CARD_REAL("T3", t[2], USED, LENGTH),   CARD_REAL("T4", t[3], USED, LENGTH),
+    CARD_REAL("NLOC", nloc, LISTED, NONE), CARD_REAL("MAREA", marea, USED, NONE),
+    CARD_REAL("IDOF", idof, LISTED, NONE), CARD_INT("EDGSET", edgset, LISTED, ID_SET),
 };
 static const FieldSpec section_angle_fields[] = {
     CARD_REAL("B1", beta[0], USED, NONE),   CARD_REAL("B2", beta[1], LISTED, NONE),
@@ -92,7 +80,8 @@ static void read_section_shell(KeywordRead *read)
         if (status) continue;
         if (card.elform >= 101 && card.elform <= 105) {
             keyword_error(read, card.source,
-                          "ELFORM = %d is a user-defined element, which billow does not have; choose 5 or 9", card.elform);
+                          "ELFORM = %d is a user-defined element, which billow does not have; choose 5 or 9",
+                          card.elform);
             return;
         }
         if (card.icomp == 1 && read_section_angles(read, &card)) continue;
@@ -109,14 +98,10 @@ static void read_section_shell(KeywordRead *read)
 
 #define AT(member) offsetof(HourglassDefinition, member)
 static const FieldSpec hourglass_fields[] = {
-    CARD_INT("HGID", id, USED, ID_OTHER),
-    CARD_INT("IHQ", ihq, LISTED, NONE),
-    CARD_REAL_OR("QM", qm, 0.1, USED, NONE),
-    CARD_INT("IBQ", ibq, LISTED, NONE),
-    CARD_REAL_OR("Q1", q1, 1.5, LISTED, NONE),
-    CARD_REAL_OR("Q2", q2, 0.06, LISTED, NONE),
-    CARD_REAL("QB/VDC", qb_vdc, LISTED, NONE),
-    CARD_REAL("QW", qw, LISTED, NONE),
+    CARD_INT("HGID", id, USED, ID_OTHER),      CARD_INT("IHQ", ihq, LISTED, NONE),
+    CARD_REAL_OR("QM", qm, 0.1, USED, NONE),   CARD_INT("IBQ", ibq, LISTED, NONE),
+    CARD_REAL_OR("Q1", q1, 1.5, LISTED, NONE), CARD_REAL_OR("Q2", q2, 0.06, LISTED, NONE),
+    CARD_REAL("QB/VDC", qb_vdc, LISTED, NONE), CARD_REAL("QW", qw, LISTED, NONE),
 };
 #undef AT
 
@@ -138,12 +123,22 @@ static void read_hourglass(KeywordRead *read)
 }
 
 static const KeywordSpec specs[] = {
-    {.name = "*PART", .cards = part_cards, .card_count = 2, .read = read_part,
+    {.name = "*PART",
+     .cards = part_cards,
+     .card_count = 2,
+     .read = read_part,
      .remark = "The options INERTIA, CONTACT, REPOSITION and others are refused."},
-    {.name = "*SECTION_SHELL", .options = {"TITLE"}, .cards = section_cards, .card_count = 3,
+    {.name = "*SECTION_SHELL",
+     .options = {"TITLE"},
+     .cards = section_cards,
+     .card_count = 3,
      .read = read_section_shell,
      .remark = "T2 to T4 are T1 where they are 0. Membranes have one point through the thickness, so only B1 counts."},
-    {.name = "*HOURGLASS", .options = {"TITLE"}, .cards = hourglass_cards, .card_count = 1, .read = read_hourglass,
+    {.name = "*HOURGLASS",
+     .options = {"TITLE"},
+     .cards = hourglass_cards,
+     .card_count = 1,
+     .read = read_hourglass,
      .remark = "For one-point quadrilaterals; fully integrated ones and triangles need none."},
 };
 

@@ -4,7 +4,8 @@
 static const char introduction[] =
     "# Keywords\n"
     "\n"
-    "What billow " BILLOW_VERSION " reads of LS-DYNA's keyword format. This page is printed from the reader's own table\n"
+    "What billow " BILLOW_VERSION
+    " reads of LS-DYNA's keyword format. This page is printed from the reader's own table\n"
     "(`io/keyword_*.c`); a test compares the two.\n"
     "\n"
     "Each field is in one of three states:\n"
@@ -13,9 +14,12 @@ static const char introduction[] =
     "- *listed*: it is read and has no effect; a value other than the default is listed as \"read but not used\";\n"
     "- ~~refused~~: a value other than the default is an error, because billow does not have what it asks for.\n"
     "\n"
-    "Fields are 10 columns wide unless another width is given; the format `LONG=Y` or a `+` after the keyword makes them\n"
-    "20. `=` gives the default of a blank field, `=!` of a blank or zero one; without it the default is 0. Options may be\n"
-    "written in any order after the keyword. A keyword or an option that is not on this page is an error, since leaving it\n"
+    "Fields are 10 columns wide unless another width is given; the format `LONG=Y` or a `+` after the keyword makes "
+    "them\n"
+    "20. `=` gives the default of a blank field, `=!` of a blank or zero one; without it the default is 0. Options may "
+    "be\n"
+    "written in any order after the keyword. A keyword or an option that is not on this page is an error, since "
+    "leaving it\n"
     "out would change the result.\n";
 
 /* Text in which a star or a bracket is meant as such. */

@@ -20,16 +20,18 @@ static void check_leakage(const Definitions *d, const AirbagDefinition *bag, Dia
     if (bag->model != AIRBAG_WANG_NEFSKE || bag->opt == 0.0) return;
     const MaterialDefinition *leaking = find_leaking_fabric(d);
     if (leaking) {
-        diagnostics_add(diagnostics, SEVERITY_ERROR, bag->card5, "*AIRBAG_WANG_NEFSKE",
-                        "OPT = %g asks for leakage through the fabric (FLC and FAC of material %d), which billow "
-                        BILLOW_VERSION " does not read; set OPT to 0 and use CP23 and AP23",
-                        bag->opt, leaking->id);
+        diagnostics_add(
+            diagnostics, SEVERITY_ERROR, bag->card5, "*AIRBAG_WANG_NEFSKE",
+            "OPT = %g asks for leakage through the fabric (FLC and FAC of material %d), which billow " BILLOW_VERSION
+            " does not read; set OPT to 0 and use CP23 and AP23",
+            bag->opt, leaking->id);
         return;
     }
     const bool given = (bag->cp23 != 0.0 || bag->lccp23 != 0) && (bag->ap23 != 0.0 || bag->lcap23 != 0);
-    diagnostics_add(diagnostics, SEVERITY_WARNING, bag->card5, "*AIRBAG_WANG_NEFSKE",
-                    "OPT = %g asks for leakage through the fabric, but no *MAT_FABRIC has both FLC and FAC: there is none%s",
-                    bag->opt, given ? ", and OPT switches CP23 and AP23 off" : "");
+    diagnostics_add(
+        diagnostics, SEVERITY_WARNING, bag->card5, "*AIRBAG_WANG_NEFSKE",
+        "OPT = %g asks for leakage through the fabric, but no *MAT_FABRIC has both FLC and FAC: there is none%s",
+        bag->opt, given ? ", and OPT switches CP23 and AP23 off" : "");
 }
 
 /* NPLTC states up to the end time. */

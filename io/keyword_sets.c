@@ -15,9 +15,8 @@ typedef struct SetCard {
 
 #define AT(member) offsetof(SetCard, member)
 static const FieldSpec head_fields[] = {
-    CARD_INT("SID", id, USED, ID_SET),      CARD_REAL("DA1", da[0], LISTED, NONE),
-    CARD_REAL("DA2", da[1], LISTED, NONE),  CARD_REAL("DA3", da[2], LISTED, NONE),
-    CARD_REAL("DA4", da[3], LISTED, NONE),  CARD_TEXT("SOLVER", solver, 10, USED),
+    CARD_INT("SID", id, USED, ID_SET),     CARD_REAL("DA1", da[0], LISTED, NONE), CARD_REAL("DA2", da[1], LISTED, NONE),
+    CARD_REAL("DA3", da[2], LISTED, NONE), CARD_REAL("DA4", da[3], LISTED, NONE), CARD_TEXT("SOLVER", solver, 10, USED),
     CARD_INT("ITS", its, LISTED, NONE),
 };
 #undef AT
@@ -28,23 +27,23 @@ typedef struct IdsCard {
 } IdsCard;
 
 #define AT(member) offsetof(IdsCard, member)
-#define MEMBER_FIELDS(prefix, scale)                                                                            \
-    {                                                                                                           \
-        CARD_INT(prefix "1", e[0], USED, scale), CARD_INT(prefix "2", e[1], USED, scale),                       \
-            CARD_INT(prefix "3", e[2], USED, scale), CARD_INT(prefix "4", e[3], USED, scale),                   \
-            CARD_INT(prefix "5", e[4], USED, scale), CARD_INT(prefix "6", e[5], USED, scale),                   \
-            CARD_INT(prefix "7", e[6], USED, scale), CARD_INT(prefix "8", e[7], USED, scale),                   \
+#define MEMBER_FIELDS(prefix, scale)                                                                                   \
+    {                                                                                                                  \
+        CARD_INT(prefix "1", e[0], USED, scale), CARD_INT(prefix "2", e[1], USED, scale),                              \
+            CARD_INT(prefix "3", e[2], USED, scale), CARD_INT(prefix "4", e[3], USED, scale),                          \
+            CARD_INT(prefix "5", e[4], USED, scale), CARD_INT(prefix "6", e[5], USED, scale),                          \
+            CARD_INT(prefix "7", e[6], USED, scale), CARD_INT(prefix "8", e[7], USED, scale),                          \
     }
-#define RANGE_FIELDS(scale)                                                                                     \
-    {                                                                                                           \
-        CARD_INT("B1BEG", e[0], USED, scale), CARD_INT("B1END", e[1], USED, scale),                             \
-            CARD_INT("B2BEG", e[2], USED, scale), CARD_INT("B2END", e[3], USED, scale),                         \
-            CARD_INT("B3BEG", e[4], USED, scale), CARD_INT("B3END", e[5], USED, scale),                         \
-            CARD_INT("B4BEG", e[6], USED, scale), CARD_INT("B4END", e[7], USED, scale),                         \
+#define RANGE_FIELDS(scale)                                                                                            \
+    {                                                                                                                  \
+        CARD_INT("B1BEG", e[0], USED, scale), CARD_INT("B1END", e[1], USED, scale),                                    \
+            CARD_INT("B2BEG", e[2], USED, scale), CARD_INT("B2END", e[3], USED, scale),                                \
+            CARD_INT("B3BEG", e[4], USED, scale), CARD_INT("B3END", e[5], USED, scale),                                \
+            CARD_INT("B4BEG", e[6], USED, scale), CARD_INT("B4END", e[7], USED, scale),                                \
     }
-#define STEP_FIELDS(scale)                                                                                      \
-    {                                                                                                           \
-        CARD_INT("BBEG", e[0], USED, scale), CARD_INT("BEND", e[1], USED, scale), CARD_INT("INCR", e[2], USED, NONE), \
+#define STEP_FIELDS(scale)                                                                                             \
+    {                                                                                                                  \
+        CARD_INT("BBEG", e[0], USED, scale), CARD_INT("BEND", e[1], USED, scale), CARD_INT("INCR", e[2], USED, NONE),  \
     }
 static const FieldSpec node_member_fields[] = MEMBER_FIELDS("NID", ID_NODE);
 static const FieldSpec part_member_fields[] = MEMBER_FIELDS("PID", ID_PART);
@@ -64,11 +63,11 @@ typedef struct MemberCard {
 } MemberCard;
 
 #define AT(member) offsetof(MemberCard, member)
-#define COLUMN_FIELDS(name, scale)                                                                              \
-    {                                                                                                           \
-        CARD_INT(name, node[0], USED, scale), CARD_REAL("A1", a[0], LISTED, NONE),                              \
-            CARD_REAL("A2", a[1], LISTED, NONE), CARD_REAL("A3", a[2], LISTED, NONE),                           \
-            CARD_REAL("A4", a[3], LISTED, NONE),                                                                \
+#define COLUMN_FIELDS(name, scale)                                                                                     \
+    {                                                                                                                  \
+        CARD_INT(name, node[0], USED, scale), CARD_REAL("A1", a[0], LISTED, NONE),                                     \
+            CARD_REAL("A2", a[1], LISTED, NONE), CARD_REAL("A3", a[2], LISTED, NONE),                                  \
+            CARD_REAL("A4", a[3], LISTED, NONE),                                                                       \
     }
 static const FieldSpec node_column_fields[] = COLUMN_FIELDS("NID", ID_NODE);
 static const FieldSpec part_column_fields[] = COLUMN_FIELDS("PID", ID_PART);
@@ -83,27 +82,27 @@ static const FieldSpec segment_fields[] = {
 
 typedef struct GeneralCard {
     char option[11];
-    double e[7];
+    int e[7];
 } GeneralCard;
 
 #define AT(member) offsetof(GeneralCard, member)
 static const FieldSpec general_fields[] = {
-    CARD_TEXT("OPTION", option, 10, USED), CARD_REAL("E1", e[0], USED, NONE), CARD_REAL("E2", e[1], USED, NONE),
-    CARD_REAL("E3", e[2], USED, NONE),     CARD_REAL("E4", e[3], USED, NONE), CARD_REAL("E5", e[4], USED, NONE),
-    CARD_REAL("E6", e[5], USED, NONE),     CARD_REAL("E7", e[6], USED, NONE),
+    CARD_TEXT("OPTION", option, 10, USED), CARD_INT("E1", e[0], USED, NONE), CARD_INT("E2", e[1], USED, NONE),
+    CARD_INT("E3", e[2], USED, NONE),      CARD_INT("E4", e[3], USED, NONE), CARD_INT("E5", e[4], USED, NONE),
+    CARD_INT("E6", e[5], USED, NONE),      CARD_INT("E7", e[6], USED, NONE),
 };
 #undef AT
 
 enum { SET_LIST, SET_GENERATE, SET_INCREMENT, SET_GENERAL, SET_COLUMN, SET_TITLE }; /* options */
 enum { SET_HEAD_CARD, SET_MEMBER_CARD, SET_RANGE_CARD, SET_STEP_CARD, SET_COLUMN_CARD, SET_GENERAL_CARD };
-#define SET_CARDS(kind)                                                                       \
-    {                                                                                         \
-        {"card 1", "", CARD_FIELDS(head_fields)},                                             \
-            {"card 2", "LIST or no option, as many as needed", CARD_FIELDS(kind##_member_fields)}, \
-            {"card 2", "GENERATE, as many as needed", CARD_FIELDS(kind##_range_fields)},      \
-            {"card 2", "GENERATE_INCREMENT, as many as needed", CARD_FIELDS(kind##_step_fields)}, \
-            {"card 2", "COLUMN, one for each member", CARD_FIELDS(kind##_column_fields)},     \
-            {"card 2", "GENERAL, as many as needed", CARD_FIELDS(general_fields)},            \
+#define SET_CARDS(kind)                                                                                                \
+    {                                                                                                                  \
+        {"card 1", "", CARD_FIELDS(head_fields)},                                                                      \
+            {"card 2", "LIST or no option, as many as needed", CARD_FIELDS(kind##_member_fields)},                     \
+            {"card 2", "GENERATE, as many as needed", CARD_FIELDS(kind##_range_fields)},                               \
+            {"card 2", "GENERATE_INCREMENT, as many as needed", CARD_FIELDS(kind##_step_fields)},                      \
+            {"card 2", "COLUMN, one for each member", CARD_FIELDS(kind##_column_fields)},                              \
+            {"card 2", "GENERAL, as many as needed", CARD_FIELDS(general_fields)},                                     \
     }
 static const CardSpec node_cards[] = SET_CARDS(node);
 static const CardSpec part_cards[] = SET_CARDS(part);
@@ -206,7 +205,12 @@ static void read_steps(KeywordRead *read, SetDefinition *set)
     }
 }
 
-enum { IN_NODES = 1u << SET_NODE, IN_PARTS = 1u << SET_PART, IN_SHELLS = 1u << SET_SHELL, IN_SEGMENTS = 1u << SET_SEGMENT };
+enum {
+    IN_NODES = 1u << SET_NODE,
+    IN_PARTS = 1u << SET_PART,
+    IN_SHELLS = 1u << SET_SHELL,
+    IN_SEGMENTS = 1u << SET_SEGMENT
+};
 
 /* The words that may stand in a _GENERAL set, also with D before them to take away, and what their entities are. */
 static const struct {
@@ -251,8 +255,13 @@ static void read_general(KeywordRead *read, SetDefinition *set, int card_index)
                           card.option);
             continue;
         }
-        for (int i = 0; i < 7; i++) card.e[i] = keyword_scale(read, card.e[i], general_options[found].scale);
-        add_clause(read, set, card.option, card.e, source);
+        double e[7];
+        bool good = true;
+        for (int i = 0; i < 7 && good; i++) {
+            e[i] = card.e[i];
+            good = keyword_real_id(read, &e[i], general_options[found].scale, "an entity of the set", source);
+        }
+        if (good) add_clause(read, set, card.option, e, source);
     }
 }
 
@@ -328,20 +337,41 @@ static void read_set_segment(KeywordRead *read)
     finish_set(read, set, errors);
 }
 
-#define SET_OPTIONS {"LIST", "GENERATE", "INCREMENT", "GENERAL", "COLUMN", "TITLE"}
+#define SET_OPTIONS                                                                                                    \
+    {                                                                                                                  \
+        "LIST", "GENERATE", "INCREMENT", "GENERAL", "COLUMN", "TITLE"                                                  \
+    }
 static const KeywordSpec specs[] = {
-    {.name = "*SET_NODE", .options = SET_OPTIONS, .cards = node_cards, .card_count = 6, .read = read_set_node,
-     .remark = "GENERAL takes ALL, NODE, SHELL, PART, BOX, SET_NODE, SET_SHELL and SET_PART, also with D before them to "
-               "take away. ADD, INTERSECT, LIST_SMOOTH are refused."},
-    {.name = "*SET_PART", .options = SET_OPTIONS, .cards = part_cards, .card_count = 6, .read = read_set_part,
+    {.name = "*SET_NODE",
+     .options = SET_OPTIONS,
+     .cards = node_cards,
+     .card_count = 6,
+     .read = read_set_node,
+     .remark =
+         "GENERAL takes ALL, NODE, SHELL, PART, BOX, SET_NODE, SET_SHELL and SET_PART, also with D before them to "
+         "take away. ADD, INTERSECT, LIST_SMOOTH are refused."},
+    {.name = "*SET_PART",
+     .options = SET_OPTIONS,
+     .cards = part_cards,
+     .card_count = 6,
+     .read = read_set_part,
      .remark = "GENERAL takes ALL, PART and SET_PART, also with D before them. ADD and TREE are refused."},
-    {.name = "*SET_SHELL", .options = SET_OPTIONS, .cards = shell_cards, .card_count = 6, .read = read_set_shell,
-     .remark = "GENERAL takes ALL, ELEM, PART, BOX, SET_SHELL and SET_PART, also with D before them. ADD and INTERSECT are "
-               "refused."},
-    {.name = "*SET_SEGMENT", .options = {"TITLE", "GENERAL"}, .cards = segment_cards, .card_count = 3,
+    {.name = "*SET_SHELL",
+     .options = SET_OPTIONS,
+     .cards = shell_cards,
+     .card_count = 6,
+     .read = read_set_shell,
+     .remark =
+         "GENERAL takes ALL, ELEM, PART, BOX, SET_SHELL and SET_PART, also with D before them. ADD and INTERSECT are "
+         "refused."},
+    {.name = "*SET_SEGMENT",
+     .options = {"TITLE", "GENERAL"},
+     .cards = segment_cards,
+     .card_count = 3,
      .read = read_set_segment,
-     .remark = "N4 = 0 or N4 = N3 is a triangle. GENERAL takes ALL, SEG, SHELL, PART, BOX, SET_SHELL and SET_PART, also "
-               "with D before them. ADD and INTERSECT are refused."},
+     .remark =
+         "N4 = 0 or N4 = N3 is a triangle. GENERAL takes ALL, SEG, SHELL, PART, BOX, SET_SHELL and SET_PART, also "
+         "with D before them. ADD and INTERSECT are refused."},
 };
 
 const KeywordFamily keyword_family_sets = {"Sets", specs, (int)(sizeof specs / sizeof *specs)};

@@ -1,4 +1,5 @@
 /* What the keyword readers share: cards, titles, lists and messages. */
+#include <limits.h>
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
@@ -122,6 +123,18 @@ void keyword_finish(KeywordRead *read)
 double keyword_scale(const KeywordRead *read, double value, FieldScale scale)
 {
     return include_transform_scale(read->cards->block->transform, scale, value);
+}
+
+bool keyword_real_id(const KeywordRead *read, double *value, FieldScale scale, const char *field, Source source)
+{
+    const double id = keyword_scale(read, *value, scale);
+    if (id != floor(id) || fabs(id) > INT_MAX) {
+        keyword_error(read, source, "%s is %g, but must be a whole number here: it names another keyword's id", field,
+                      *value);
+        return false;
+    }
+    *value = id;
+    return true;
 }
 
 void keyword_transform_point(const KeywordRead *read, double x[3])

@@ -4,10 +4,10 @@
 #include <string.h>
 
 static const KeywordFamily *const families[] = {
-    &keyword_family_deck,     &keyword_family_nodes,    &keyword_family_parts,    &keyword_family_materials,
-    &keyword_family_fabric,   &keyword_family_airbag,   &keyword_family_sets,     &keyword_family_curves,
-    &keyword_family_coordinates, &keyword_family_boundary, &keyword_family_initial, &keyword_family_load,
-    &keyword_family_damping,  &keyword_family_control,  &keyword_family_database, &keyword_family_ignored,
+    &keyword_family_deck,        &keyword_family_nodes,    &keyword_family_parts,    &keyword_family_materials,
+    &keyword_family_fabric,      &keyword_family_airbag,   &keyword_family_sets,     &keyword_family_curves,
+    &keyword_family_coordinates, &keyword_family_boundary, &keyword_family_initial,  &keyword_family_load,
+    &keyword_family_damping,     &keyword_family_control,  &keyword_family_database, &keyword_family_ignored,
 };
 
 int keyword_family_count(void)
@@ -39,8 +39,8 @@ static size_t match_name(const KeywordSpec *spec, const char *keyword)
     return longest;
 }
 
-/* Takes the words of rest ("_TITLE_ID") as options, the longest option first where one begins another. Returns the end of
- * what was understood. */
+/* Takes the words of rest ("_TITLE_ID") as options, the longest option first where one begins another. Returns the end
+ * of what was understood. */
 static const char *match_options(const KeywordSpec *spec, const char *rest, unsigned *options)
 {
     *options = 0;

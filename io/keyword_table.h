@@ -33,8 +33,8 @@ typedef struct KeywordSpec {
     const CardSpec *cards;
     int card_count;
     void (*read)(struct KeywordRead *read); /* NULL unless state is KEYWORD_READ */
-    const char *remark; /* what a user must know; the reason if it is ignored; "" if nothing */
-    bool prefix;        /* any further words after the name belong to it (families that are ignored as a whole) */
+    const char *remark;                     /* what a user must know; the reason if it is ignored; "" if nothing */
+    bool prefix; /* any further words after the name belong to it (families that are ignored as a whole) */
 } KeywordSpec;
 
 /* One group of keywords, defined by one io/keyword_<name>.c. */
@@ -62,9 +62,9 @@ extern const KeywordFamily keyword_family_nodes, keyword_family_parts, keyword_f
 int keyword_family_count(void);
 const KeywordFamily *keyword_family(int index);
 
-/* The entry for a keyword as written ("*AIRBAG_WANG_NEFSKE_ID") and the options found in it; NULL if there is none. Then
- * *base is the entry with the longest matching name and *rest the words after it that are no options (a pointer into
- * keyword), or NULL where not even the name is known. */
+/* The entry for a keyword as written ("*AIRBAG_WANG_NEFSKE_ID") and the options found in it; NULL if there is none.
+ * Then *base is the entry with the longest matching name and *rest the words after it that are no options (a pointer
+ * into keyword), or NULL where not even the name is known. */
 const KeywordSpec *keyword_find(const char *keyword, unsigned *options, const KeywordSpec **base, const char **rest);
 
 /* The known keyword whose spelling is nearest, or NULL if none differs by two letters or fewer. */
@@ -86,7 +86,7 @@ bool keyword_more(const KeywordRead *read);
 
 /* Appends a zeroed record to a LIST and returns it, NULL without memory (reported). Use KEYWORD_APPEND. */
 void *keyword_append(KeywordRead *read, void **items, size_t *count, size_t *capacity, size_t size);
-#define KEYWORD_APPEND(read, list) \
+#define KEYWORD_APPEND(read, list)                                                                                     \
     keyword_append((read), (void **)&(list).items, &(list).count, &(list).capacity, sizeof *(list).items)
 
 /* Error or warning at a card of the keyword being read. */
@@ -109,9 +109,13 @@ void keyword_id_card(KeywordRead *read, int option, int *id, char *title);
 /* Error if cards with content are left after the last one known. */
 void keyword_finish(KeywordRead *read);
 
-/* A value with *INCLUDE_TRANSFORM's offset or factor, for fields whose meaning (id or quantity) depends on their sign or
- * on another field. Ids: 0 stays 0, a negative id keeps its sign. */
+/* A value with *INCLUDE_TRANSFORM's offset or factor, for fields whose meaning (id or quantity) depends on their sign
+ * or on another field. Ids: 0 stays 0, a negative id keeps its sign. */
 double keyword_scale(const KeywordRead *read, double value, FieldScale scale);
+
+/* The same for an id that stands in a real column, perhaps with a sign; false and an error under the field's name
+ * unless it is whole and in the range of int. */
+bool keyword_real_id(const KeywordRead *read, double *value, FieldScale scale, const char *field, Source source);
 
 /* Position or direction by *DEFINE_TRANSFORMATION's matrix (nothing without one). */
 void keyword_transform_point(const KeywordRead *read, double x[3]);
@@ -127,16 +131,30 @@ void keyword_check_duplicates(Definitions *definitions, Diagnostics *diagnostics
 void keyword_check_references(Definitions *definitions, Diagnostics *diagnostics);
 
 /* Field tables. AT(member) must be defined as the offset of member in the card's record. */
-#define CARD_INT(name, member, use, scale) \
-    {name, 'I', 10, AT(member), 0.0, false, FIELD_##use, SCALE_##scale}
-#define CARD_INT_OR(name, member, fallback, use, scale) \
-    {name, 'I', 10, AT(member), fallback, true, FIELD_##use, SCALE_##scale}
-#define CARD_REAL(name, member, use, scale) \
-    {name, 'F', 10, AT(member), 0.0, false, FIELD_##use, SCALE_##scale}
-#define CARD_REAL_OR(name, member, fallback, use, scale) \
-    {name, 'F', 10, AT(member), fallback, true, FIELD_##use, SCALE_##scale}
-#define CARD_TEXT(name, member, columns, use) {name, 'A', columns, AT(member), 0.0, false, FIELD_##use, SCALE_NONE}
-#define CARD_GAP {"-", '-', 10, 0, 0.0, false, FIELD_USED, SCALE_NONE}
+#define CARD_INT(name, member, use, scale)                                                                             \
+    {                                                                                                                  \
+        name, 'I', 10, AT(member), 0.0, false, FIELD_##use, SCALE_##scale                                              \
+    }
+#define CARD_INT_OR(name, member, fallback, use, scale)                                                                \
+    {                                                                                                                  \
+        name, 'I', 10, AT(member), fallback, true, FIELD_##use, SCALE_##scale                                          \
+    }
+#define CARD_REAL(name, member, use, scale)                                                                            \
+    {                                                                                                                  \
+        name, 'F', 10, AT(member), 0.0, false, FIELD_##use, SCALE_##scale                                              \
+    }
+#define CARD_REAL_OR(name, member, fallback, use, scale)                                                               \
+    {                                                                                                                  \
+        name, 'F', 10, AT(member), fallback, true, FIELD_##use, SCALE_##scale                                          \
+    }
+#define CARD_TEXT(name, member, columns, use)                                                                          \
+    {                                                                                                                  \
+        name, 'A', columns, AT(member), 0.0, false, FIELD_##use, SCALE_NONE                                            \
+    }
+#define CARD_GAP                                                                                                       \
+    {                                                                                                                  \
+        "-", '-', 10, 0, 0.0, false, FIELD_USED, SCALE_NONE                                                            \
+    }
 #define CARD_FIELDS(fields) fields, (int)(sizeof(fields) / sizeof *(fields))
 
 /* Where the values of fields go that billow reads only to list them. */
@@ -145,9 +163,13 @@ typedef struct UnusedCard {
     double f[10];
     char text[81];
 } UnusedCard;
-#define UNUSED_INT(name, k, fallback) \
-    {name, 'I', 10, offsetof(UnusedCard, i[k]), fallback, true, FIELD_LISTED, SCALE_NONE}
-#define UNUSED_REAL(name, k, fallback) \
-    {name, 'F', 10, offsetof(UnusedCard, f[k]), fallback, true, FIELD_LISTED, SCALE_NONE}
+#define UNUSED_INT(name, k, fallback)                                                                                  \
+    {                                                                                                                  \
+        name, 'I', 10, offsetof(UnusedCard, i[k]), fallback, true, FIELD_LISTED, SCALE_NONE                            \
+    }
+#define UNUSED_REAL(name, k, fallback)                                                                                 \
+    {                                                                                                                  \
+        name, 'F', 10, offsetof(UnusedCard, f[k]), fallback, true, FIELD_LISTED, SCALE_NONE                            \
+    }
 
 #endif

@@ -98,6 +98,20 @@ static bool set_text(const ParameterReading *r, Parameter *parameter, Field fiel
     return true;
 }
 
+static void warn_of_truncation(const ParameterReading *r, Source source, const char *text, size_t length)
+{
+    int shown = length < 60 ? (int)length : 60;
+    diagnostics_add(r->diagnostics, SEVERITY_WARNING, source, r->block->keyword,
+                    "'%.*s' divides integers and loses a remainder; write 7./2 for 3.5", shown, text);
+}
+
+/* A definition with an error still defines its name, lest every use of it be reported as well. */
+static void define_failed(const ParameterReading *r, Parameter *parameter)
+{
+    parameter->type = '?';
+    parameters_define(r->parameters, *parameter, r->block->keyword, r->diagnostics);
+}
+
 /* A value of *PARAMETER: a number, a text, another parameter or <expression>. False after an error. */
 static bool read_value(const ParameterReading *r, Parameter *parameter, Field field)
 {
@@ -114,9 +128,10 @@ static bool read_value(const ParameterReading *r, Parameter *parameter, Field fi
     char message[MESSAGE_LENGTH], what[MESSAGE_LENGTH + 40];
     if (parameters_evaluate(r->parameters, r->block, field.text, field.length, &value, message, sizeof message)) {
         snprintf(what, sizeof what, "cannot be evaluated: %s", message);
-        report(r, parameter->source, what, field.text, field.length);
+        if (message[0]) report(r, parameter->source, what, field.text, field.length);
         return false;
     }
+    if (value.truncated) warn_of_truncation(r, parameter->source, field.text, field.length);
     return set_number(r, parameter, value.value, field, false);
 }
 
@@ -136,7 +151,10 @@ static void read_values(ParameterReading *r)
                 break;
             }
             if (!read_name(r, line->source, name, &parameter)) break;
-            if (!read_value(r, &parameter, value)) break;
+            if (!read_value(r, &parameter, value)) {
+                define_failed(r, &parameter);
+                break;
+            }
             parameters_define(r->parameters, parameter, r->block->keyword, r->diagnostics);
         }
     }
@@ -165,9 +183,11 @@ static void define_expression(const ParameterReading *r, Parameter *parameter, c
     char message[MESSAGE_LENGTH], what[MESSAGE_LENGTH + 40];
     if (parameters_evaluate_text(r->parameters, r->block, text, length, &value, message, sizeof message)) {
         snprintf(what, sizeof what, "cannot be evaluated: %s", message);
-        report(r, parameter->source, what, text, length);
+        if (message[0]) report(r, parameter->source, what, text, length);
+        define_failed(r, parameter);
         return;
     }
+    if (value.truncated) warn_of_truncation(r, parameter->source, text, length);
     if (set_number(r, parameter, value.value, field, true)) {
         parameters_define(r->parameters, *parameter, r->block->keyword, r->diagnostics);
     }

@@ -205,8 +205,12 @@ static int look_up_value(const void *context, const char *name, size_t length, E
     const LookupContext *where = context;
     int shown = length < BILLOW_PARAMETER_NAME_LENGTH ? (int)length : BILLOW_PARAMETER_NAME_LENGTH;
     const Parameter *p = parameters_find(where->parameters, name, length, where->block->order, where->block->scope);
+    if (p && p->type == '?') {
+        if (message_length > 0) message[0] = '\0';
+        return -1;
+    }
     if (p && p->type != 'C') {
-        *value = (ExpressionValue){p->value, p->type == 'I'};
+        *value = (ExpressionValue){.value = p->value, .is_integer = p->type == 'I'};
         return 0;
     }
     if (p) {

@@ -14,7 +14,7 @@ enum { BILLOW_PARAMETER_NAME_LENGTH = 32 }; /* terminating zero included */
  * between the two. */
 typedef struct Parameter {
     char name[BILLOW_PARAMETER_NAME_LENGTH]; /* lower case */
-    char type;                               /* 'R', 'I' or 'C' */
+    char type;                               /* 'R', 'I' or 'C'; '?': its definition had an error, already reported */
     double value;                            /* of R and I */
     char *text;                              /* of C; owned by the table */
     bool local;                              /* seen only in its own file and what that includes */
@@ -64,7 +64,8 @@ const Parameter *parameters_find(const Parameters *parameters, const char *name,
 const Parameter *parameters_find_anywhere(const Parameters *parameters, const char *name, size_t length);
 
 /* The value of a field's text[0 .. length) that starts with & or -& or is <expression>, as seen from the block.
- * Returns 0, or -1 with the reason in message. C parameters are an error here. */
+ * Returns 0, or -1 with the reason in message, which is empty where a parameter's definition had an error: that was
+ * reported, and its uses are no errors of their own. C parameters are an error here. */
 int parameters_evaluate(const Parameters *parameters, const DeckBlock *block, const char *text, size_t length,
                         ExpressionValue *value, char *message, size_t message_length);
 

@@ -32,9 +32,8 @@ static void rotation_vector(const double q[4], double rotation[3])
     for (int c = 0; c < 3; c++) rotation[c] = scale * q[c + 1];
 }
 
-/* The part's momentum over its mass is the centre's velocity at the full step; the state keeps the half step's. */
-static void gather_motion(const Results *results, const Model *model, const State *state, const StepView *view, int p,
-                          RigidMotion *motion)
+/* RigidState's own position is already that of the coming cycle; its output is that of t_n. */
+static void gather_motion(const Results *results, const Model *model, const State *state, int p, RigidMotion *motion)
 {
     const Part *part = &model->parts[p];
     *motion = (RigidMotion){.axes = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
@@ -42,16 +41,17 @@ static void gather_motion(const Results *results, const Model *model, const Stat
     if (part->rigid_body < 0) return;
     const RigidBody *body = &model->rigid_bodies[part->rigid_body];
     const RigidState *rigid = &state->rigid[part->rigid_body];
+    const RigidOutput *output = &rigid->output;
     for (int c = 0; c < 3; c++) {
-        motion->x[c] = rigid->x[c];
-        motion->u[c] = rigid->x[c] - body->centre[c];
-        motion->v[c] = part->mass > 0 ? view->part_momentum[3 * p + c] / part->mass : rigid->v[c];
+        motion->x[c] = output->x[c];
+        motion->u[c] = output->x[c] - body->centre[c];
+        motion->v[c] = output->v[c];
         motion->a[c] = rigid->a[c];
-        motion->spin[c] = rigid->spin[c];
+        motion->spin[c] = output->spin[c];
         motion->alpha[c] = rigid->alpha[c];
-        turn_vector(rigid->rotation, body->axes + 3 * c, motion->axes + 3 * c);
+        turn_vector(output->rotation, body->axes + 3 * c, motion->axes + 3 * c);
     }
-    rotation_vector(rigid->rotation, motion->rotation);
+    rotation_vector(output->rotation, motion->rotation);
 }
 
 static void write_six(FILE *ascii, const char *name, const double linear[3], const double angular[3])
@@ -108,6 +108,7 @@ int results_write_rbdout(Results *results, const Model *model, const State *stat
 {
     History *history = &results->history[HISTORY_RBDOUT];
     double time = state->clock->time;
+    (void)view;
     if (!has_rigid_part(model)) return 0;
     int go = history_begin(history, time, model->title);
     if (go <= 0) return go;
@@ -117,7 +118,7 @@ int results_write_rbdout(Results *results, const Model *model, const State *stat
     for (int p = 0; p < model->part_count; p++) {
         RigidMotion motion;
         if (model->parts[p].material_kind != MATERIAL_RIGID) continue;
-        gather_motion(results, model, state, view, p, &motion);
+        gather_motion(results, model, state, p, &motion);
         const double *const columns[3] = {motion.x, motion.v, motion.a};
         fprintf(history->csv.stream, "%.17g,%d", time, model->parts[p].id);
         for (int j = 0; j < 9; j++) fprintf(history->csv.stream, ",%.17g", columns[j / 3][j % 3]);

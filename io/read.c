@@ -85,7 +85,8 @@ int deck_read(const char *path, Definitions *definitions, Diagnostics *diagnosti
     return read_deck(path, NULL, 0, definitions, diagnostics);
 }
 
-int deck_read_text(const char *name, const char *text, size_t length, Definitions *definitions, Diagnostics *diagnostics)
+int deck_read_text(const char *name, const char *text, size_t length, Definitions *definitions,
+                   Diagnostics *diagnostics)
 {
     return read_deck(name, text ? text : "", length, definitions, diagnostics);
 }

@@ -12,6 +12,7 @@
 int deck_read(const char *path, Definitions *definitions, Diagnostics *diagnostics);
 
 /* The same from memory (tests, fuzzing): name stands for the file; *INCLUDE is looked up relative to name's folder. */
-int deck_read_text(const char *name, const char *text, size_t length, Definitions *definitions, Diagnostics *diagnostics);
+int deck_read_text(const char *name, const char *text, size_t length, Definitions *definitions,
+                   Diagnostics *diagnostics);
 
 #endif

@@ -1,12 +1,30 @@
 /* From the command line's deck to a model and its state at time 0, with the messages users see. */
 #include "solver/accept.h"
 
+#include <stdlib.h>
+
+#include "elements/kernels.h"
 #include "io/read.h"
 #include "solver/build.h"
 
 static void add_memory_error(Diagnostics *diagnostics)
 {
     diagnostics_add(diagnostics, SEVERITY_ENVIRONMENT, BILLOW_NO_SOURCE, NULL, "not enough memory for this deck");
+}
+
+/* The state at time 0; the build has refused every impossible start, so that only memory can be missing. */
+static int start_state(Accepted *accepted)
+{
+    if (!kernels_select(NULL)) {
+        const char *wish = getenv("BILLOW_KERNELS");
+        diagnostics_add(&accepted->diagnostics, SEVERITY_ERROR, BILLOW_NO_SOURCE, NULL,
+                        "BILLOW_KERNELS=%s: this processor has no such kernels; use v2, or unset the variable",
+                        wish ? wish : "");
+        return -1;
+    }
+    if (state_create(&accepted->model, &accepted->state) == 0) return 0;
+    add_memory_error(&accepted->diagnostics);
+    return -1;
 }
 
 int accept_deck(const Options *options, Accepted *accepted)
@@ -23,12 +41,7 @@ int accept_deck(const Options *options, Accepted *accepted)
     if (diagnostics->environment > 0) return -1;
     const int unbuilt = model_build(definitions, &options->build, &accepted->model, diagnostics);
     if (unbuilt && diagnostics_exit_code(diagnostics) == BILLOW_EXIT_NORMAL) add_memory_error(diagnostics);
-    if (unread || unbuilt) return -1;
-    if (state_create(&accepted->model, &accepted->state)) {
-        add_memory_error(diagnostics);
-        return -1;
-    }
-    return 0;
+    return unread || unbuilt ? -1 : start_state(accepted);
 }
 
 void accept_print_problems(const Diagnostics *diagnostics, const char *deck, FILE *stream)

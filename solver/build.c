@@ -120,16 +120,20 @@ static void builder_free(Builder *b)
 /* Each stage needs those before it; errors inside a stage are all collected. */
 static int run_stages(Builder *b)
 {
+    int errors = b->diagnostics->errors;
     int status = deck_index_build(&b->index, b->definitions, b->diagnostics);
+    if (status && b->diagnostics->errors == errors) return -1; /* a failure without a message: out of memory */
     if (build_curves(b)) status = -1;
     if (build_parts(b) | (build_output(b) ? -1 : 0)) status = -1;
     if (status) {
         /* the surfaces' and motions' messages would only repeat what is missing; shells still have their own */
-        if (b->parts) build_shells(b);
+        if (b->parts && b->model->parts) build_shells(b);
         return -1;
     }
     if (build_shells(b)) return -1;
+    errors = b->diagnostics->errors;
     if (build_surfaces(b)) status = -1;
+    if (status && b->diagnostics->errors == errors) return -1;
     if (build_airbags(b)) status = -1;
     if (build_mass_scaling(b)) status = -1;
     lump_masses(b);

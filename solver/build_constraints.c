@@ -108,7 +108,7 @@ static void warn_driven_supports(const MotionInput *input, const Motion *motion,
 
 int build_constraints(const MotionInput *input, Motion *motion, Diagnostics *diagnostics)
 {
-    if (!motion->node_body || !motion->fixed) return -1;
+    if (!motion_ready(motion)) return -1;
     unsigned char *hold = memory_alloc((size_t)motion->node_count + 1, sizeof *hold);
     if (!hold) return motion_no_memory("*BOUNDARY_SPC", diagnostics);
     int status = build_supports(input, motion, diagnostics);

@@ -148,7 +148,7 @@ static int build_segment_loads(const MotionInput *input, Motion *motion, Diagnos
 
 int build_loads(const MotionInput *input, Motion *motion, Diagnostics *diagnostics)
 {
-    if (!motion->node_body || !motion->fixed) return -1;
+    if (!motion_ready(motion)) return -1;
     int status = build_point_loads(input, motion, diagnostics);
     if (build_segment_loads(input, motion, diagnostics)) status = -1;
     if (build_body_classes(input, motion, diagnostics)) status = -1;

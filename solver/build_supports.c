@@ -46,7 +46,6 @@ static int add_spc(const MotionInput *input, const Motion *motion, const SpcDefi
     bool any = support.fixed[0] || support.fixed[1] || support.fixed[2];
     for (size_t k = 0; k < nodes.count && any && status == 0; k++) {
         support.node = nodes.items[k];
-        if (motion->node_body[support.node] == MOTION_FIXED) continue;
         if (motion->node_body[support.node] >= 0) {
             status = report_rigid_node(input, motion, support.node, card->source, keyword, diagnostics);
         } else {
@@ -73,7 +72,6 @@ static int add_codes(const MotionInput *input, const Motion *motion, SupportList
             status = -1;
             continue;
         }
-        if (motion->node_body[n] == MOTION_FIXED) continue;
         if (motion->node_body[n] >= 0) {
             status = report_rigid_node(input, motion, (int32_t)n, node->source, "*NODE", diagnostics);
             continue;

@@ -65,11 +65,8 @@ static int set_all(const MotionInput *input, const InitialVelocityDefinition *ca
         to_global(input, card, card->vx_exempt, v_exempt, diagnostics))
         status = -1;
     if (status == 0) {
-        size_t next = 0; /* both lists ascend */
         for (size_t k = 0; k < nodes.count; k++) {
             int32_t node = nodes.items[k];
-            while (next < exempt.count && exempt.items[next] < node) next++;
-            if (next < exempt.count && exempt.items[next] == node) continue;
             if (box && !coordinates_in_box(box, input->x + 3 * (size_t)node)) continue;
             memcpy(velocity + 3 * (size_t)node, v, sizeof v);
         }
@@ -247,7 +244,7 @@ static int run_cards(const MotionInput *input, Motion *motion, int kind, Diagnos
 
 int build_velocities(const MotionInput *input, const double *mass, Motion *motion, Diagnostics *diagnostics)
 {
-    if (!motion->velocity || !motion->fixed || !motion->part_body) return -1;
+    if (!motion_ready(motion)) return -1;
     int status = run_cards(input, motion, VELOCITY_ALL, diagnostics);
     if (run_cards(input, motion, VELOCITY_GENERATION, diagnostics)) status = -1;
     if (run_cards(input, motion, VELOCITY_NODE, diagnostics)) status = -1;

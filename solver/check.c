@@ -22,7 +22,7 @@ static void print_report(Accepted *accepted, const char *deck)
     report_write_plan(model, &plan, stdout);
     report_write_steps(model, LISTED_STEPS, stdout);
     report_write_messages(&accepted->diagnostics, stdout);
-    printf("\n%s: the deck is good; billow run %s runs it\n", deck, deck);
+    printf("\n%s: no errors; billow run %s runs it\n", deck, deck);
 }
 
 int check_deck(const Options *options)

@@ -7,6 +7,12 @@
 /* Death times from here on mean "never" (LS-DYNA's default is 1e20 or 1e28). */
 #define BILLOW_NEVER 1e19
 
+/* Whether build_rigid_bodies had the memory for its arrays; without them the other builders do nothing. */
+static inline bool motion_ready(const Motion *motion)
+{
+    return motion->part_body && motion->node_body && motion->fixed && motion->velocity && motion->rigid_bodies;
+}
+
 /* Reports that memory is short; returns -1. */
 int motion_no_memory(const char *keyword, Diagnostics *diagnostics);
 

@@ -19,7 +19,8 @@ double recorder_energy_error(const Energies *energy)
 
 static void watch_energy(Recorder *recorder, const State *state)
 {
-    if (recorder->energy_warned) return;
+    /* The ratio stays 1 in the first cycles of a start from rest, which the loop does not judge. */
+    if (recorder->energy_warned || state->energy->ratio == 1.0) return;
     const double error = recorder_energy_error(state->energy);
     if (!(error > energy_warning_share)) return;
     recorder->energy_warned = true;
@@ -108,6 +109,8 @@ static int recorder_emit(void *user, const Model *model, const State *state, con
     /* Only results that were due count in the state, so that a stop and a restart leave no trace in its bits. */
     if (recorder->due & SCHEDULE_STATES) recorder->state->clock->states_written++;
     schedule_advance(&recorder->plan, recorder->state->clock, recorder->due);
+    recorder->last_time = state->clock->time;
+    if (last || recorder->stop) progress_finish(&recorder->progress, model, state);
     recorder->due = 0;
     recorder->want_states = recorder->asked = false;
     return recorder->stop || recorder->write_failed ? 1 : 0;

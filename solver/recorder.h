@@ -30,6 +30,7 @@ typedef struct Recorder {
     bool write_failed; /* results or checkpoint could not be written: the run ends */
     bool energy_warned;
     double next_look;         /* wall time of the next look at d3kil */
+    double last_time;         /* of the last cycle that was emitted; a run's last cycle always is */
     int64_t checkpoint_cycle; /* clock->cycle of the last checkpoint written, 0 none */
 } Recorder;
 

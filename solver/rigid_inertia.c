@@ -35,7 +35,8 @@ static void jacobi_rotate(double a[9], double axes[9], int p, int q)
     }
 }
 
-/* Eigenvalues and right-handed eigenvectors (rows of axes) of the symmetric matrix a, which is destroyed. */
+/* Eigenvalues and eigenvectors (rows of axes) of the symmetric matrix a, which is destroyed. A product of rotations, so
+ * the axes are right-handed. */
 static void principal_axes(double a[9], double axes[9], double moments[3])
 {
     static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -46,11 +47,6 @@ static void principal_axes(double a[9], double axes[9], double moments[3])
         jacobi_rotate(a, axes, 0, 1);
         jacobi_rotate(a, axes, 0, 2);
         jacobi_rotate(a, axes, 1, 2);
-    }
-    double third[3];
-    vector3_cross(axes, axes + 3, third);
-    if (vector3_dot(third, axes + 6) < 0) {
-        for (int i = 6; i < 9; i++) axes[i] = -axes[i];
     }
     double largest = 0;
     for (int i = 0; i < 3; i++) {

@@ -83,6 +83,7 @@ static int open_outputs(Run *run)
     const double time = run->deck.state.clock->time;
     run->recorder.plan = model->output;
     schedule_fill_plan(&run->recorder.plan, model->end_time, diagnostics);
+    signals_install();
     if (folder_claim(run->directory, run->append, diagnostics)) return -1;
     if (log_open(&run->log, run->directory, run->append, run->options->deck, diagnostics)) return -1;
     log_write_deck(&run->log, &run->deck.definitions, model, &run->deck.state, &run->recorder.plan, run->threads,
@@ -113,6 +114,7 @@ static void run_loop(Run *run)
     State *state = &run->deck.state;
     Recorder *recorder = &run->recorder;
     recorder->state = state;
+    recorder->last_time = state->clock->time;
     recorder->results = run->results;
     recorder->diagnostics = &run->deck.diagnostics;
     recorder->log = &run->log;
@@ -120,10 +122,9 @@ static void run_loop(Run *run)
     recorder->switch_file = "d3kil";
     progress_start(&recorder->progress, stdout, isatty(STDOUT_FILENO) == 1, run->options->quiet, model, state->clock);
     const RunHooks hooks = recorder_hooks(recorder);
-    signals_install();
     const int failed = solver_run(model, state, run->threads, &hooks, &run->times, &run->failure);
     if (failed) run->failure.failed = true;
-    progress_finish(&recorder->progress, model, state);
+    progress_finish_line(&recorder->progress);
     if (!failed && !recorder->write_failed && recorder->checkpoint_cycle != state->clock->cycle)
         recorder_write_checkpoint(recorder, model, state);
 }
@@ -149,7 +150,7 @@ static Summary make_summary(const Run *run)
                      .last_cycle = clock->cycle,
                      .elements = model->deformable_count,
                      .nodes = model->node_count,
-                     .end_time = clock->time,
+                     .end_time = run->recorder.last_time,
                      .wall_seconds = progress_now() - run->start_wall,
                      .loop_seconds = loop,
                      .ns_per_element_cycle = work > 0.0 ? 1e9 * loop / work : 0.0,

@@ -47,6 +47,7 @@ static void out_of_memory(SegmentResolution *r)
 static void sort_nodes(Segment *segment)
 {
     memcpy(segment->sorted, segment->node, sizeof segment->node);
+    if (segment->node[3] == segment->node[2]) segment->sorted[3] = INT32_MAX; /* whichever node a triangle repeats */
     for (int i = 1; i < 4; i++) {
         for (int j = i; j > 0 && segment->sorted[j] < segment->sorted[j - 1]; j--) {
             int32_t swap = segment->sorted[j];

@@ -29,7 +29,9 @@ void signals_install(void)
         sigemptyset(&action.sa_mask);
         sigaction(stop_signals[i], &action, NULL);
     }
+    /* Output that cannot be written is an error to report, not a reason to die. */
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
 }
 
 bool signals_stop_requested(void)

@@ -16,7 +16,8 @@ typedef enum SenseSwitch {
 } SenseSwitch;
 
 /* From now on the first Ctrl-C, SIGTERM or SIGHUP only raises the flag; the next one kills as usual. Signals that the
- * caller had ignored (nohup, background jobs) stay ignored. Writing into a closed pipe is no longer fatal. */
+ * caller had ignored (nohup, background jobs) stay ignored. Writing into a closed pipe or beyond the
+ * largest file allowed is no longer fatal. */
 void signals_install(void);
 
 /* True once a stop was asked for by a signal. */

@@ -47,15 +47,16 @@ void step_close_energies(Workspace *w)
     double given = e->initial + e->external_work + e->airbag_work;
     double parts[] = {e->kinetic, fabs(e->internal), e->damping, fabs(e->external_work), fabs(e->airbag_work), fabs(given)};
     for (int i = 0; i < 6; i++) e->largest = parts[i] > e->largest ? parts[i] : e->largest;
-    e->ratio = given != 0.0 ? held / given : 1.0;
-    if (held == 0.0 && given == 0.0) e->ratio = 1.0;
-    e->ratio_min = e->ratio < e->ratio_min ? e->ratio : e->ratio_min;
-    e->ratio_max = e->ratio > e->ratio_max ? e->ratio : e->ratio_max;
     w->closed = true;
     if (!isfinite(held) || !isfinite(given)) {
         step_fail(w, "look at the last state written; lower TSSFAC, or check loads there", "an energy is not finite");
         return;
     }
+    /* The full-step velocity is first order in the first cycles of a start from rest: nothing to judge yet. */
+    if (w->state->clock->cycle < BILLOW_UNJUDGED_CYCLES) return;
+    e->ratio = given != 0.0 ? held / given : 1.0;
+    e->ratio_min = e->ratio < e->ratio_min ? e->ratio : e->ratio_min;
+    e->ratio_max = e->ratio > e->ratio_max ? e->ratio : e->ratio_max;
     if (fabs(held - given) > m->energy_error_limit * e->largest && e->largest > 0.0)
         step_fail(w, "the step is unstable or a load is not what was meant: lower TSSFAC, look at the last state; "
                      "--energy-error-limit raises the limit",

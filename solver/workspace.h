@@ -9,7 +9,10 @@
 #include "solver/state.h"
 #include "solver/step.h"
 
-enum { BILLOW_NODE_CHUNK = 256 }; /* nodes in one fixed partial sum */
+enum {
+    BILLOW_NODE_CHUNK = 256,     /* nodes in one fixed partial sum */
+    BILLOW_UNJUDGED_CYCLES = 20, /* at the start, in which the energy ratio is 1 by definition */
+};
 
 /* Sums over one chunk of nodes; works in force x velocity, to be multiplied by half a step (eq. L3). */
 typedef struct NodeSums {

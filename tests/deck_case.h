@@ -58,8 +58,8 @@ enum { ANY_LINE = -1 };
 static inline void assert_only_message(const DeckCase *c, Severity severity, int line, const char *part)
 {
     const Diagnostics *d = &c->diagnostics;
-    bool fine = d->count == 1 && d->messages[0].severity == severity && (line == ANY_LINE || d->messages[0].source.line == line) &&
-                strstr(d->messages[0].text, part);
+    bool fine = d->count == 1 && d->messages[0].severity == severity &&
+                (line == ANY_LINE || d->messages[0].source.line == line) && strstr(d->messages[0].text, part);
     if (!fine) {
         print_error("expected one message of severity %d on line %d with '%s', but got\n", (int)severity, line, part);
         diagnostics_print(d, SEVERITY_NOTE, stderr);
@@ -74,8 +74,10 @@ typedef struct Record {
     char text[81];
 } Record;
 
-#define RECORD_FIELD(NAME, TYPE, COLUMNS, MEMBER) \
-    {.name = NAME, .type = TYPE, .columns = COLUMNS, .offset = offsetof(Record, MEMBER)}
+#define RECORD_FIELD(NAME, TYPE, COLUMNS, MEMBER)                                                                      \
+    {                                                                                                                  \
+        .name = NAME, .type = TYPE, .columns = COLUMNS, .offset = offsetof(Record, MEMBER)                             \
+    }
 
 /* One card of three fields of 10 columns: A (real), ID (integer), B (real). */
 static const FieldSpec mixed_fields[] = {RECORD_FIELD("A", 'F', 10, a), RECORD_FIELD("ID", 'I', 10, id),

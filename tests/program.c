@@ -149,10 +149,30 @@ int program_count(const Program *program)
     return count;
 }
 
-void program_write_cushion(const Program *program, const char *name, int n, const char *add)
+void program_make_bag(Scene *scene, int n)
+{
+    SceneText *deck = &scene->deck;
+    SceneFabric fabric = scene_isotropic(2, true, 800.0, 4e8, 0.4);
+    SceneGas gas = scene_air(101325.0, 296.15);
+    fabric.damp = 0.05;
+    gas.inflow_temperature = 400.0;
+    gas.inflow_curve = 1;
+    scene_add_sphere(&scene->mesh, 1, SCENE_QUADS, n, 0.3);
+    scene_begin(deck, "sphere of fabric", 0.1, 0.9);
+    scene_write_output(deck, 5e-4, 5e-4, 2.5e-3);
+    scene_write_part(deck, 1, 1, 1, "sphere");
+    scene_write_section(deck, 1, 9, 4e-4);
+    scene_write_fabric(deck, 1, &fabric);
+    scene_write_part_set(deck, 1, 1, (const int[]){1});
+    scene_write_ramp(deck, 1, 0.01, 0.5);
+    scene_write_simple_airbag(deck, 1, &gas);
+    scene_end(deck, &scene->mesh);
+}
+
+void program_write_bag(const Program *program, const char *name, int n, const char *add)
 {
     Scene scene = {0};
-    scene_cushion(&scene, n);
+    program_make_bag(&scene, n);
     assert_true(scene_ok(&scene));
     char *end = strstr(scene.deck.text, "*END");
     assert_non_null(end);

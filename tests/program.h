@@ -42,8 +42,11 @@ bool program_exists(const Program *program, const char *name);
 /* Entries of the folder. */
 int program_count(const Program *program);
 
-/* Writes a cushion of n cells per side as name; add is put before *END (NULL: nothing). */
-void program_write_cushion(const Program *program, const char *name, int n, const char *add);
+/* A closed bag for these tests: a sphere of 6 n^2 quads of fabric, full of air, that is blown up for 0.1 s. */
+void program_make_bag(Scene *scene, int n);
+
+/* Writes that bag's deck as name; add is put before *END (NULL: nothing). */
+void program_write_bag(const Program *program, const char *name, int n, const char *add);
 
 /* The last line of text, without its newline, in a buffer of its own. */
 const char *program_last_line(const char *text);

@@ -158,12 +158,17 @@ static inline void small_set_time(SmallModel *small, double time)
         small->part_kinetic[p] = p + 0.3;
         for (int c = 0; c < 3; c++) small->part_momentum[3 * p + c] = p + c + 0.4;
     }
-    small->rigid = (RigidState){.x = {1.5 + time, 0.5, -time},
+    /* State proper is a cycle ahead of what is to be written. */
+    small->rigid = (RigidState){.x = {99, 99, 99},
                                 .v = {99, 99, 99},
                                 .a = {time, 2, 3},
-                                .rotation = {sqrt(0.5), 0, 0, sqrt(0.5)},
-                                .spin = {0, 0, 1},
-                                .alpha = {0, 0, 2}};
+                                .rotation = {1, 0, 0, 0},
+                                .spin = {99, 99, 99},
+                                .alpha = {0, 0, 2},
+                                .output = {.x = {1.5 + time, 0.5, -time},
+                                           .v = {0.25, 0.5, time},
+                                           .rotation = {sqrt(0.5), 0, 0, sqrt(0.5)},
+                                           .spin = {0, 0, 1}}};
 }
 
 #endif

@@ -9,9 +9,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "examples/scene.h"
 #include "solver/accept.h"
 #include "solver/memory.h"
+#include "tests/program.h"
 
 static const char path[] = "test_accept.k";
 
@@ -19,7 +19,7 @@ static int write_deck(void **state)
 {
     (void)state;
     Scene scene = {0};
-    scene_cushion(&scene, 2);
+    program_make_bag(&scene, 2);
     assert_true(scene_ok(&scene));
     FILE *file = fopen(path, "w");
     assert_non_null(file);

@@ -10,16 +10,16 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "examples/scene.h"
 #include "io/checkpoint.h"
 #include "io/read.h"
 #include "solver/build.h"
 #include "solver/memory.h"
 #include "solver/step.h"
+#include "tests/program.h"
 
 static const char path[] = "test_checkpoint.billow";
 
-/* A cushion's model with its state at time 0. */
+/* A bag's model with its state at time 0. */
 typedef struct Bag {
     Diagnostics diagnostics;
     Definitions definitions;
@@ -31,10 +31,10 @@ static void make_bag(Bag *bag, int n, const BuildOptions *options)
 {
     Scene scene = {0};
     memset(bag, 0, sizeof *bag);
-    scene_cushion(&scene, n);
+    program_make_bag(&scene, n);
     assert_true(scene_ok(&scene));
     const int unread =
-        deck_read_text("cushion.k", scene.deck.text, scene.deck.length, &bag->definitions, &bag->diagnostics);
+        deck_read_text("bag.k", scene.deck.text, scene.deck.length, &bag->definitions, &bag->diagnostics);
     const int unbuilt = model_build(&bag->definitions, options, &bag->model, &bag->diagnostics);
     if (unread || unbuilt) diagnostics_print(&bag->diagnostics, SEVERITY_WARNING, stderr);
     assert_int_equal(unread, 0);

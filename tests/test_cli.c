@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #include "solver/billow.h"
 #include "tests/program.h"
@@ -62,7 +63,7 @@ static void test_normal_run(void **state)
 {
     Program *program = *state;
     char text[1 << 16];
-    program_write_cushion(program, "bag.v1.k", 6, NULL);
+    program_write_bag(program, "bag.v1.k", 6, NULL);
     program_run(program, "run bag.v1.k -j 1 --end-time 0.004");
     expect_code(program, BILLOW_EXIT_NORMAL);
     assert_string_equal(program_last_line(program->out), normal);
@@ -100,7 +101,7 @@ static void test_normal_run(void **state)
 
     assert_true(program_read(program, "bag.v1.results/log.txt", text, sizeof text));
     expect_contains(text, "billow " BILLOW_VERSION);
-    expect_contains(text, "square cushion inflated from flat");
+    expect_contains(text, "sphere of fabric");
     expect_contains(text, "Airbags");
     expect_contains(text, "Stable time steps");
     expect_contains(text, "Timing");
@@ -112,7 +113,7 @@ static void test_quiet_and_dyna_spelling(void **state)
 {
     Program *program = *state;
     char text[1 << 16];
-    program_write_cushion(program, "bag.k", 4, NULL);
+    program_write_bag(program, "bag.k", 4, NULL);
     program_run(program, "run bag.k -j 1 --end-time 0.001 --quiet");
     expect_code(program, BILLOW_EXIT_NORMAL);
     assert_int_equal(strlen(program->out), sizeof normal);
@@ -130,7 +131,7 @@ static void test_folder(void **state)
 {
     Program *program = *state;
     char text[64];
-    program_write_cushion(program, "bag.k", 4, NULL);
+    program_write_bag(program, "bag.k", 4, NULL);
     program_run(program, "run bag.k -j 1 --end-time 0.001 -o out");
     expect_code(program, BILLOW_EXIT_NORMAL);
     program_write(program, "out/picture.png", "mine", 4);
@@ -190,19 +191,19 @@ static void test_broken_decks(void **state)
 static void test_check(void **state)
 {
     Program *program = *state;
-    program_write_cushion(program, "bag.k", 6, NULL);
+    program_write_bag(program, "bag.k", 6, NULL);
     program_run(program, "check bag.k");
     expect_code(program, BILLOW_EXIT_NORMAL);
-    expect_contains(program->out, "square cushion inflated from flat");
+    expect_contains(program->out, "sphere of fabric");
     expect_contains(program->out, "fabric");
     expect_contains(program->out, "airbag 1");
     expect_contains(program->out, "free edges");
     expect_contains(program->out, "T ");
     expect_contains(program->out, "smallest ");
-    expect_contains(program->out, "the deck is good");
+    expect_contains(program->out, "bag.k: no errors");
     assert_int_equal(program_count(program), 1);
 
-    program_write_cushion(program, "bad.k", 6, "*MAT_CONCRETE\n         9\n");
+    program_write_bag(program, "bad.k", 6, "*MAT_CONCRETE\n         9\n");
     program_run(program, "check bad.k");
     expect_code(program, BILLOW_EXIT_INPUT);
     expect_contains(program->err, "bad.k:");
@@ -213,7 +214,7 @@ static void test_check(void **state)
 static void test_failure(void **state)
 {
     Program *program = *state;
-    program_write_cushion(program, "bag.k", 6, NULL);
+    program_write_bag(program, "bag.k", 6, NULL);
     program_run(program, "run bag.k -j 1 --energy-error-limit 1e-15");
     expect_code(program, BILLOW_EXIT_FAILED);
     assert_string_equal(program_last_line(program->out), error);
@@ -226,11 +227,29 @@ static void test_failure(void **state)
     assert_string_equal(program_last_line(text), error);
 }
 
+/* Results that cannot be written: exit 3 and a message that names the file. */
+static void test_full_disk(void **state)
+{
+    Program *program = *state;
+    struct rlimit limit, small;
+    program_write_bag(program, "bag.k", 8, NULL);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    small = limit;
+    small.rlim_cur = 40000;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    program_run(program, "run bag.k -j 1");
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    expect_code(program, BILLOW_EXIT_ENVIRONMENT);
+    expect_contains(program->err, "bag.results/results.vtkhdf");
+    assert_string_equal(program_last_line(program->out), error);
+    assert_string_equal(program_summary(program, "bag.results", "status"), "\"failed\"");
+}
+
 static void test_threads(void **state)
 {
     Program *program = *state;
     char hash[32];
-    program_write_cushion(program, "bag.k", 8, NULL);
+    program_write_bag(program, "bag.k", 8, NULL);
     program_run(program, "run bag.k -j 1 --end-time 0.004");
     expect_code(program, BILLOW_EXIT_NORMAL);
     snprintf(hash, sizeof hash, "%s", program_summary(program, "bag.results", "state_hash"));
@@ -250,7 +269,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_help),    TEST(test_normal_run),   TEST(test_quiet_and_dyna_spelling),
         TEST(test_folder),  TEST(test_broken_decks), TEST(test_check),
-        TEST(test_failure), TEST(test_threads),
+        TEST(test_failure), TEST(test_full_disk),    TEST(test_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,7 +31,7 @@ static void expressions_have_the_usual_precedence(void **state)
     assert_value("(1+2)*3", 9, true);
     assert_value("-2**2", -4, true);
     assert_value("2**3**2", 512, true);
-    assert_value("2^-1", 0, true);
+    assert_value("2^-1", 0.5, false);
     assert_value("2.^-1", 0.5, false);
     assert_value("2*-3", -6, true);
     assert_value("1.5-3", -1.5, false);
@@ -54,7 +54,8 @@ static void integers_divide_like_integers(void **state)
     assert_value("float(7)/2", 3.5, false);
     assert_value("mod(7,4)", 3, true);
     assert_value("mod(-7,4)", -3, true);
-    assert_value("2**-2", 0, true);
+    assert_value("ls_real(7)/2", 3.5, false);
+    assert_value("ls_integer(3.5)", 3, true);
 }
 
 static void functions_are_known(void **state)
@@ -94,11 +95,16 @@ static void wrong_expressions_are_explained(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"", "missing number"},    {"1+", "missing number"},       {"(1", "missing ')'"},      {"1)", "no operator"},
-        {"1/0", "division by zero"}, {"1./0.", "division by zero"}, {"foo(1)", "unknown function"}, {"foo", "unknown name"},
-        {"sin()", "missing number"}, {"sin(1,2)", "too many"},     {"atan2(1)", "too few"},    {"1..2", "malformed"},
-        {"sqrt(-1)", "finite"},    {"log(0)", "finite"},           {"10.**400", "finite"},     {"2**60", "2^53"},
-        {"1 2", "no operator"},    {"&", "name missing"},          {"1e999", "malformed"},     {"a$b", "unknown name"},
+        {"", "missing number"},         {"1+", "missing number"},
+        {"(1", "missing ')'"},          {"1)", "no operator"},
+        {"1/0", "division by zero"},    {"1./0.", "division by zero"},
+        {"foo(1)", "unknown function"}, {"foo", "unknown name"},
+        {"sin()", "missing number"},    {"sin(1,2)", "too many"},
+        {"atan2(1)", "too few"},        {"1..2", "malformed"},
+        {"sqrt(-1)", "finite"},         {"log(0)", "finite"},
+        {"10.**400", "finite"},         {"2**60", "2^53"},
+        {"1 2", "no operator"},         {"&", "name missing"},
+        {"1e999", "malformed"},         {"a$b", "unknown name"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         ExpressionValue value;
@@ -179,7 +185,8 @@ static void free_format_and_long_format_parameters(void **state)
     assert_int_equal(read_mixed(&c, &r), 0);
     assert_true(fabs(r.a - 0.2 / 50) < 1e-18 && r.id == 3 && r.b == 240);
     close_case(&c);
-    c = load_string("*KEYWORD LONG=Y\n*PARAMETER\nR               long                2.25\n*A\n               &long\n");
+    c = load_string(
+        "*KEYWORD LONG=Y\n*PARAMETER\nR               long                2.25\n*A\n               &long\n");
     assert_int_equal(read_mixed(&c, &r), 0);
     assert_no_messages(&c);
     assert_true(r.a == 2.25);
@@ -237,8 +244,9 @@ static void use_before_definition_is_an_error(void **state)
 static void assert_duplicate(const char *rule, const char *option, double after, int warnings, int errors)
 {
     char deck[400];
-    snprintf(deck, sizeof deck, "*KEYWORD\n%s*PARAMETER%s\nR p       1.0\n*A\n&p\n*PARAMETER%s\nR p       2.0\n*B\n&p\n", rule,
-             option, option);
+    snprintf(deck, sizeof deck,
+             "*KEYWORD\n%s*PARAMETER%s\nR p       1.0\n*A\n&p\n*PARAMETER%s\nR p       2.0\n*B\n&p\n", rule, option,
+             option);
     DeckCase c = load_string(deck);
     Record r;
     CardReader reader = open_block(&c, 0);
@@ -256,6 +264,8 @@ static void duplicates_follow_the_rule(void **state)
     (void)state;
     assert_duplicate("", "", 1, 1, 0);
     assert_duplicate("*PARAMETER_DUPLICATION\n         1\n", "", 1, 1, 0);
+    assert_duplicate("*PARAMETER_DUPLICATION\n         0\n", "", 1, 1, 0);
+    assert_duplicate("*PARAMETER_DUPLICATION\n\n", "", 1, 1, 0);
     assert_duplicate("*PARAMETER_DUPLICATION\n         2\n", "", 2, 1, 0);
     assert_duplicate("*PARAMETER_DUPLICATION\n         3\n", "", 1, 0, 1);
     assert_duplicate("*PARAMETER_DUPLICATION\n4\n", "", 2, 0, 0);
@@ -289,6 +299,34 @@ static void wrong_definitions_are_reported(void **state)
     assert_bad_definition("*PARAMETER_EXPRESSION\nR one     one+1", 3, "the undefined parameter 'one'");
     assert_bad_definition("*PARAMETER_EXPRESSION\n          2+1", 3, "no parameter's name");
     assert_bad_definition("*PARAMETER\n               1.0", 3, "no parameter's name");
+}
+
+/* A bad definition is one error, not one for each use. */
+static void uses_of_a_bad_definition_are_silent(void **state)
+{
+    (void)state;
+    DeckCase c =
+        load_string("*KEYWORD\n*PARAMETER\nR a         x.y\n*PARAMETER_EXPRESSION\nR b       a*2\nR c       1\n"
+                    "*A\n        &a         1        &b\n");
+    Record r;
+    assert_int_equal(read_mixed(&c, &r), -1);
+    assert_only_message(&c, SEVERITY_ERROR, 3, "'x.y' is not a number");
+    close_case(&c);
+}
+
+static void lost_remainders_are_warned_of(void **state)
+{
+    (void)state;
+    DeckCase c = load_string("*KEYWORD\n*PARAMETER_EXPRESSION\nR a       7/2\nR b       8/2\n*A\n&a,1,&b\n");
+    Record r;
+    assert_int_equal(read_mixed(&c, &r), 0);
+    assert_true(r.a == 3 && r.b == 4);
+    assert_only_message(&c, SEVERITY_WARNING, 3, "'7/2' divides integers and loses a remainder");
+    close_case(&c);
+    c = load_string("*KEYWORD\n*A\n   <1/3>         1\n");
+    assert_int_equal(read_mixed(&c, &r), 0);
+    assert_only_message(&c, SEVERITY_WARNING, 3, "A (columns 1-10): '<1/3>' divides integers");
+    close_case(&c);
 }
 
 static void odd_options_are_left_to_the_readers(void **state)
@@ -350,6 +388,8 @@ int main(void)
         cmocka_unit_test(use_before_definition_is_an_error),
         cmocka_unit_test(duplicates_follow_the_rule),
         cmocka_unit_test(wrong_definitions_are_reported),
+        cmocka_unit_test(uses_of_a_bad_definition_are_silent),
+        cmocka_unit_test(lost_remainders_are_warned_of),
         cmocka_unit_test(odd_options_are_left_to_the_readers),
         cmocka_unit_test(thousands_of_parameters_are_found),
         cmocka_unit_test(endless_expressions_are_refused),

@@ -71,7 +71,7 @@ static void test_motion_columns(void **unused)
         nodout[8 + c] = small.v[node + c];
         nodout[11 + c] = small.a[node + c];
     }
-    const double moving[] = {t, 20, 1.5 + t, 0.5, -t, 1.4 / 4, 2.4 / 4, 3.4 / 4, t, 2, 3};
+    const double moving[] = {t, 20, 1.5 + t, 0.5, -t, 0.25, 0.5, t, t, 2, 3};
     const double matsum[] = {t, 20, 1.1 + t, 1.3, 1.2, 4, 1.4, 2.4, 3.4};
     check_row("nodout.csv", "time,node,x,y,z,ux,uy,uz,vx,vy,vz,ax,ay,az", 4, nodout, 14);
     check_row("rbdout.csv", "time,part,x,y,z,vx,vy,vz,ax,ay,az", 3, moving, 11);
@@ -80,7 +80,7 @@ static void test_motion_columns(void **unused)
               matsum, 9);
 }
 
-/* The fixed part rests at its centre of mass; areas are those of the deformed shells. */
+/* The fixed part rests at its centre of mass; areas of part 10 and 20 to begin with. */
 static void test_fixed_body_and_areas(void **unused)
 {
     (void)unused;
@@ -101,6 +101,32 @@ static void test_fixed_body_and_areas(void **unused)
     free(text);
 }
 
+/* Half the cross product of the diagonals (p - q) and (r - s) of deck nodes. */
+static double warped_area(int p, int q, int r, int s)
+{
+    double d[2][3];
+    const int nodes[4] = {p, q, r, s};
+    for (int i = 0; i < 6; i++)
+        d[i / 3][i % 3] = small.x[3 * small.deck_node[nodes[i / 3 * 2]] + i % 3] -
+                          small.x[3 * small.deck_node[nodes[i / 3 * 2 + 1]] + i % 3];
+    double n[3] = {d[0][1] * d[1][2] - d[0][2] * d[1][1], d[0][2] * d[1][0] - d[0][0] * d[1][2],
+                   d[0][0] * d[1][1] - d[0][1] * d[1][0]};
+    return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+}
+
+static void test_deformed_areas(void **unused)
+{
+    (void)unused;
+    const double times[1] = {0.5};
+    double area = 0;
+    write_run(false, 0, times, 1);
+    char *text = read_whole("abstat_parts.csv");
+    assert_int_equal(sscanf(strstr(text, "\n0.5,7,10,"), "\n0.5,7,10,%lf,0,0", &area), 1);
+    assert_true(fabs(area - (warped_area(2, 0, 3, 1) + warped_area(4, 1, 2, 1))) < 1e-14);
+    assert_true(area > 1.6);
+    free(text);
+}
+
 /* Lines as LS-DYNA writes them: readers cut by column. */
 static void test_ascii_layouts(void **unused)
 {
@@ -115,6 +141,7 @@ static void test_ascii_layouts(void **unused)
                    " time step......................   1.76667E-01\n"
                    " kinetic energy.................   2.50000E+00\n"},
         {"glstat", "\n hourglass energy ..............   2.78571E+00\n"},
+        {"glstat", "\n external work..................   6.57143E+00\n"},
         {"glstat", "\n total energy / initial energy..   3.78571E+00\n"},
         {"abstat", "\n{BEGIN LEGEND}\n Entity #        Title\n        7     cushion "},
         {"abstat",
@@ -169,6 +196,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_energy_and_gas_columns, setup, teardown),
         cmocka_unit_test_setup_teardown(test_motion_columns, setup, teardown),
         cmocka_unit_test_setup_teardown(test_fixed_body_and_areas, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_deformed_areas, setup, teardown),
         cmocka_unit_test_setup_teardown(test_ascii_layouts, setup, teardown),
         cmocka_unit_test_setup_teardown(test_ascii_columns_stay_apart, setup, teardown),
     };

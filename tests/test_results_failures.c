@@ -40,6 +40,21 @@ static void test_restart_gives_same_bytes(void **unused)
     for (int i = 0; i < NAME_COUNT; i++) free(whole[i]);
 }
 
+/* The restart's own time belongs to what is kept. */
+static void test_restart_keeps_its_time(void **unused)
+{
+    (void)unused;
+    const double all[3] = {0, 0.1, 0.2};
+    write_run(false, 0, all, 2);
+    char *whole = read_whole("matsum.csv"), *whole_ascii = read_whole("matsum");
+    write_run(false, 0, all, 3);
+    write_run(true, 0.1, all, 0);
+    char *kept = read_whole("matsum.csv"), *kept_ascii = read_whole("matsum");
+    assert_string_equal(kept, whole);
+    assert_string_equal(kept_ascii, whole_ascii);
+    free(whole), free(whole_ascii), free(kept), free(kept_ascii);
+}
+
 static void test_restart_into_empty_folder(void **unused)
 {
     (void)unused;
@@ -178,6 +193,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_restart_gives_same_bytes, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_restart_keeps_its_time, setup, teardown),
         cmocka_unit_test_setup_teardown(test_restart_into_empty_folder, setup, teardown),
         cmocka_unit_test_setup_teardown(test_restart_refuses_other_columns, setup, teardown),
         cmocka_unit_test_setup_teardown(test_old_files_go, setup, teardown),

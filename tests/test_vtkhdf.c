@@ -1,6 +1,8 @@
 /* results.vtkhdf and results.xdmf: the published layout, and states to the bit. */
 #include "tests/vtkhdf_case.h"
 
+#include <sys/stat.h>
+
 static void test_attributes(void **unused)
 {
     (void)unused;
@@ -92,8 +94,11 @@ static void test_step_columns(void **unused)
 static void test_states(void **unused)
 {
     (void)unused;
+    struct stat file;
     write_run(false, 0, three, 3);
     check_states(three, 3);
+    assert_int_equal(stat(grid_path, &file), 0);
+    assert_in_range(file.st_size, 0, 150000); /* nothing of the reserved space is left behind */
 }
 
 /* Many more states than one chunk of the Steps columns holds. */

@@ -13,6 +13,8 @@ static void test_restart(void **unused)
     write_run(false, 0, first, 4);
     write_run(true, 0.25, later, 3);
     check_states(all, 4);
+    write_run(true, 0.6, three, 0);
+    check_states(all, 3);
     write_run(true, -1, three, 3);
     check_states(three, 3);
 }

@@ -160,15 +160,43 @@ static void pressure_step(void **state)
 
 /* ---- strip wave -------------------------------------------------------------------------------------------------- */
 
-static void check_strip_wave(ScenePattern pattern, double nu, bool sides, double speed, double stress)
+enum { STRIP_VALUES = 3 * 1000 };
+
+typedef struct StripEnergy {
+    double kinetic, internal;
+    double x[STRIP_VALUES], f[STRIP_VALUES];
+} StripEnergy;
+
+/* The energies that central differences keep to rounding for any force law: m v_{n-1/2} . v_{n+1/2} / 2, and the work of
+ * the stress forces by the trapezoidal rule. Those of the ledger, full-step velocities and stress times strain, differ by
+ * m (a dt)^2 / 8 at the front and by a share of the strain's size. */
+static void record_strip_energy(void *user, const Model *model, const State *state, const StepView *view)
+{
+    StripEnergy *energy = user;
+    double half = 0.5 * state->clock->step;
+    energy->kinetic = 0;
+    for (int i = 0; i < 3 * model->node_count && i < STRIP_VALUES; i++) {
+        double v = view->v[i], change = half * view->a[i];
+        energy->kinetic += 0.5 * model->mass[i / 3] * (v + change) * (v - change);
+        if (state->clock->cycle > 0) energy->internal -= 0.5 * (energy->f[i] + view->f[i]) * (view->x[i] - energy->x[i]);
+        energy->x[i] = view->x[i];
+        energy->f[i] = view->f[i];
+    }
+}
+
+/* At 1/1000 of the collection's end velocity, so that finite strain has no part in it. */
+static void check_strip_wave(ScenePattern pattern, double nu, bool sides, double speed, double courant, double stress)
 {
     const int cells = 150;
-    const double length = 1.5, h = length / cells, time = 1 / speed;
+    const double length = 1.5, h = length / cells, time = 1 / speed, velocity = 1e-3;
     Scene scene = {0};
     SceneText *deck = &scene.deck;
     deck->exact = true;
     scene_add_rectangle(&scene.mesh, 1, pattern, cells, 1, length, h);
-    scene_begin(deck, "wave in a strip", time, 1);
+    scene_begin(deck, "wave in a strip", 2 * time, 0);
+    scene_print(deck, "*CONTROL_TIMESTEP\n"); /* a constant step, a little below the critical one: LCTM */
+    SCENE_CARD(deck, 0, 1, 0, 0, 0, 2);
+    scene_write_curve(deck, 2, 2, (const double[]){0, courant * h / speed, 1, courant * h / speed});
     scene_write_part(deck, 1, 1, 1, "strip");
     scene_write_section(deck, 1, 9, 1e-3);
     scene_write_elastic(deck, 1, 800, 2e8, nu);
@@ -177,16 +205,18 @@ static void check_strip_wave(ScenePattern pattern, double nu, bool sides, double
     scene_write_spc(deck, 1, false, sides, true);
     ScenePlane end = {0, 0, 1e-9};
     for (int i = 0; i < scene.mesh.node_count; i++)
-        if (scene_select_plane(&end, scene.mesh.x + 3 * i)) scene_write_motion(deck, i + 1, 1, 0, 1, -1);
+        if (scene_select_plane(&end, scene.mesh.x + 3 * i)) scene_write_motion(deck, i + 1, 1, 0, 1, -velocity);
     scene_end(deck, &scene.mesh);
     SceneMesh mesh = scene.mesh;
     scene.mesh = (SceneMesh){0};
     VerifyRun run;
-    verify_scene(&run, &scene, &(VerifyOptions){.every = 1});
+    StripEnergy energy = {0};
+    verify_scene(&run, &scene,
+                 &(VerifyOptions){.every = 1, .stop_time = time, .probe = record_strip_energy, .user = &energy});
 
     double front = 0, plateau = 0, count = 0;
     for (int i = 0; i < mesh.node_count; i++)
-        if (run.v[3 * i] < -0.5) front = fmax(front, mesh.x[3 * i]);
+        if (run.v[3 * i] < -0.5 * velocity) front = fmax(front, mesh.x[3 * i]);
     for (int e = 0; e < mesh.shell_count; e++) {
         double x = mesh.x[3 * mesh.shell[e][0]];
         if (x < 0.1 || x > 0.85) continue;
@@ -196,9 +226,10 @@ static void check_strip_wave(ScenePattern pattern, double nu, bool sides, double
     const VerifySample *last = &run.samples[run.count - 1];
     print_message("    step %.4g, cell / speed %.4g; energy kinetic %.6g internal %.6g external %.6g\n", last->step,
                   h / speed, last->kinetic, last->internal, last->external);
-    verify_near("A8 front after 1 m [m]", front + 0.5 * h, 1.0, h);
-    verify_close("A8 plateau [Pa]", plateau / count, stress, 5e-3);
-    verify_close("A8 energy balance", last->kinetic + last->internal, last->external, 1e-10);
+    verify_near("A8 front [m]", front + 0.5 * h, speed * last->time, h);
+    verify_close("A8 plateau [Pa]", plateau / count, stress * velocity, 5e-3);
+    verify_close("A8 energy balance", energy.kinetic + energy.internal, last->external, 1e-10);
+    verify_close("A8 internal energy of the ledger", last->internal, energy.internal, 1e-5);
     verify_free(&run);
     scene_mesh_free(&mesh);
 }
@@ -206,9 +237,9 @@ static void check_strip_wave(ScenePattern pattern, double nu, bool sides, double
 static void strip_wave(void **state)
 {
     (void)state;
-    check_strip_wave(SCENE_QUADS, 0, false, 500, 400000);
-    check_strip_wave(SCENE_QUADS, 0.3, true, 524.1424, 419313.9);
-    check_strip_wave(SCENE_CROSS, 0, false, 500, 400000);
+    check_strip_wave(SCENE_QUADS, 0, false, 500, 0.9999, 400000);
+    check_strip_wave(SCENE_QUADS, 0.3, true, 524.1424, 0.87, 419313.9);
+    check_strip_wave(SCENE_CROSS, 0, false, 500, 0.47, 400000);
 }
 
 /* ---- critical step -------------------------------------------------------------------------------------------------

@@ -14,9 +14,9 @@
 
 int verify_build(VerifyRun *run, const char *text, size_t length, const VerifyOptions *options)
 {
-    *run = (VerifyRun){.options = *options, .ratio_min = INFINITY, .ratio_max = -INFINITY};
+    *run = (VerifyRun){.options = *options};
     int read = deck_read_text("scene.k", text, length, &run->definitions, &run->diagnostics);
-    BuildOptions build = {.one_point_quads = options->one_point, .caps_push_rim = options->caps_push_rim};
+    BuildOptions build = {.one_point_quads = options->one_point, .caps_push_rim = options->caps_push_rim, .energy_error_limit = 1e9};
     if (model_build(&run->definitions, &build, &run->model, &run->diagnostics) || read) return -1;
     size_t size = (size_t)run->model.node_count * 3 + 1;
     run->x = memory_alloc(size, sizeof *run->x);
@@ -26,12 +26,18 @@ int verify_build(VerifyRun *run, const char *text, size_t length, const VerifyOp
     return run->x && run->v && run->f && run->internal_x && state_create(&run->model, &run->state) == 0 ? 0 : -1;
 }
 
+static bool must_stop(const VerifyRun *run, const Clock *clock)
+{
+    return (run->options.stop > 0 && clock->cycle >= run->options.stop) ||
+           (run->options.stop_time > 0 && clock->time >= run->options.stop_time);
+}
+
 static bool cycle_due(void *user, const Model *model, const State *state, bool last)
 {
     (void)model;
     const VerifyRun *run = user;
     int64_t cycle = state->clock->cycle;
-    if (last || (run->options.stop > 0 && cycle >= run->options.stop)) return true;
+    if (last || must_stop(run, state->clock)) return true;
     return run->options.every > 0 && cycle % run->options.every == 0;
 }
 
@@ -45,10 +51,12 @@ static void record_sample(VerifyRun *run, const Model *model, const State *state
                              .element_step = view->element_step,
                              .kinetic = energy->kinetic,
                              .internal = energy->internal,
-                             .damping = energy->damping,
                              .external = energy->external_work,
-                             .airbag_work = energy->airbag_work,
-                             .ratio = energy->ratio};
+                             .held = energy->kinetic + energy->internal + energy->hourglass + energy->damping +
+                                     energy->contact,
+                             .given = energy->initial + energy->external_work + energy->airbag_work};
+    run->imbalance = fmax(run->imbalance, fabs(sample->held - sample->given));
+    run->energy = energy->largest;
     if (run->options.airbag < model->airbag_count) {
         const GasState *gas = &state->gas[run->options.airbag];
         sample->volume = gas->volume;
@@ -68,10 +76,8 @@ static void record_sample(VerifyRun *run, const Model *model, const State *state
 static int emit_cycle(void *user, const Model *model, const State *state, const StepView *view, bool last)
 {
     VerifyRun *run = user;
-    bool stop = run->options.stop > 0 && state->clock->cycle >= run->options.stop;
+    bool stop = must_stop(run, state->clock);
     record_sample(run, model, state, view);
-    run->ratio_min = fmin(run->ratio_min, state->energy->ratio);
-    run->ratio_max = fmax(run->ratio_max, state->energy->ratio);
     run->cycles = state->clock->cycle;
     if (run->options.probe) run->options.probe(run->options.user, model, state, view);
     if (!last && !stop) return 0;
@@ -190,6 +196,11 @@ ElementResult verify_element(const VerifyRun *run, int element)
     ElementResult result;
     membrane_result(&run->model, run->internal_x, element, &result);
     return result;
+}
+
+void verify_balance(const VerifyRun *run, double tolerance)
+{
+    verify_near("energy balance over the largest energy", run->imbalance / run->energy, 0, tolerance);
 }
 
 void verify_principal(const double stress[6], double principal[2])

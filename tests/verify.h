@@ -16,7 +16,8 @@ typedef struct VerifySample {
     double time, step, element_step;
     double volume, pressure, temperature, mass, area, mass_flow_out; /* of the watched airbag */
     double x[3], v[3], a[3], f[3];                                   /* of the watched node */
-    double kinetic, internal, damping, external, airbag_work, ratio;
+    double kinetic, internal, external;
+    double held, given; /* both sides of the energy balance */
 } VerifySample;
 
 /* Called on every recorded cycle. */
@@ -28,6 +29,7 @@ typedef struct VerifyOptions {
     int node;       /* deck index of the watched node */
     int every;      /* record every so many cycles; 0: only the last */
     int64_t stop;   /* > 0: stop after this cycle */
+    double stop_time; /* > 0: stop at the first cycle at or after this time */
     bool one_point; /* one-point quads */
     bool caps_push_rim;
     VerifyProbe *probe;
@@ -48,7 +50,8 @@ typedef struct VerifyRun {
     double *x, *v, *f;  /* last emitted cycle, deck order (model.node_count x 3) */
     double *internal_x; /* its positions in the model's own order */
     int64_t cycles;
-    double ratio_min, ratio_max; /* energy ratio over the recorded cycles */
+    double imbalance;     /* largest |held - given| over the recorded cycles */
+    double energy;        /* largest energy of the run */
 } VerifyRun;
 
 /* Reads and builds. 0, or -1 with the messages in run->diagnostics. run need not be initialised. */
@@ -74,6 +77,9 @@ double verify_mean(const VerifyRun *run, double from, double to, size_t offset);
 
 /* Cauchy stress xx yy zz xy yz zx of the element with the deck's index at the last emitted cycle. */
 ElementResult verify_element(const VerifyRun *run, int element);
+
+/* Fails the cmocka test if the energy balance was ever off by more than this share of the run's largest energy. */
+void verify_balance(const VerifyRun *run, double tolerance);
 
 /* Larger and smaller principal value of a plane stress given in global axes (the third is zero). */
 void verify_principal(const double stress[6], double principal[2]);
