@@ -22,6 +22,7 @@ typedef struct Branches {
     double *volume;   /* of the sets (facet_count) */
     double *region;   /* volume of a region at its lowest side (2 facet_count) */
     int *region_root; /* 1 + a set on an outer region, signed by its winding (2 facet_count) */
+    bool *ordered;    /* the set's place around an edge is known (facet_count) */
     Parity sides;     /* sides 2 root (the normal's) and 2 root + 1 of the sets, joined into regions */
 } Branches;
 
@@ -42,9 +43,9 @@ static int edge_nets(const Branches *branches, int e, EdgeNet nets[BRANCH_LIMIT]
     return kept;
 }
 
-/* A set alone on an edge cannot count; two alone on an edge follow each other. Returns how many edges stay undecided.
- */
-static int settle_pairs(Branches *branches)
+/* A set alone on an edge cannot count. If pairs is true, two sets alone on an edge follow each other. Returns how many
+ * edges stay undecided. */
+static int settle_edges(Branches *branches, bool pairs)
 {
     int undecided = 0;
     for (bool changed = true; changed;) {
@@ -55,7 +56,7 @@ static int settle_pairs(Branches *branches)
             int sets = edge_nets(branches, branches->edge[i], nets);
             if (sets == 1) {
                 branches->out[nets[0].root] = changed = true;
-            } else if (sets == 2 && abs(nets[0].net) == abs(nets[1].net)) {
+            } else if (pairs && sets == 2 && abs(nets[0].net) == abs(nets[1].net)) {
                 int relation = nets[0].net == nets[1].net ? -1 : 1;
                 parity_join(&branches->work->parity, nets[0].root, nets[1].root, relation);
                 changed = true;
@@ -145,7 +146,10 @@ static void find_regions(Branches *branches)
     for (int i = 0; i < branches->count; i++) {
         Spoke spoke[BRANCH_LIMIT];
         int count = order_spokes(branches, branches->edge[i], spoke);
-        for (int k = 0; k < count; k++) parity_join(&branches->sides, spoke[k].after, spoke[(k + 1) % count].before, 1);
+        for (int k = 0; k < count; k++) {
+            parity_join(&branches->sides, spoke[k].after, spoke[(k + 1) % count].before, 1);
+            branches->ordered[spoke[k].after / 2] = true;
+        }
     }
     for (int side = 0; side < 2 * branches->work->input->facet_count; side++) {
         int flip, lowest = parity_find(&branches->sides, side, &flip);
@@ -153,63 +157,46 @@ static void find_regions(Branches *branches)
     }
 }
 
-/* Decides about the set at root on branching edge e: outer if just one of its sides is. Returns 0, -1 if that is not
- * clear. */
-static int place_set(Branches *branches, int root)
+/* The set at root counts if just one of its sides looks to the outer region, whose volume is negative; it then follows
+ * the others around that region. A region without volume decides nothing. */
+static void place_set(Branches *branches, int root)
 {
-    double least = 1e-9 * branches->work->size * branches->work->size * branches->work->size;
+    double size = branches->work->size, least = 1e-9 * size * size * size;
     int flip, side[2];
     for (int i = 0; i < 2; i++) {
         side[i] = parity_find(&branches->sides, 2 * root + i, &flip);
-        if (fabs(branches->region[side[i]]) <= least) return -1;
+        if (fabs(branches->region[side[i]]) <= least) return;
     }
     bool outside[2] = {branches->region[side[0]] < 0.0, branches->region[side[1]] < 0.0};
     if (outside[0] == outside[1]) {
         branches->out[root] = true;
-        return 0;
+        return;
     }
     int outer = side[outside[0] ? 0 : 1], winding = outside[0] ? 1 : -1;
     if (branches->region_root[outer] == 0) branches->region_root[outer] = winding * (root + 1);
     int first = abs(branches->region_root[outer]) - 1, first_winding = branches->region_root[outer] > 0 ? 1 : -1;
     parity_join(&branches->work->parity, first, root, first_winding * winding);
-    return 0;
 }
 
-/* Decides by regions. Returns 0; -1 with an error reported. */
+/* Decides by regions where there are any. Returns 0, or -1 with an error reported. */
 static int settle_regions(Branches *branches)
 {
     SurfaceWork *work = branches->work;
-    const EdgeTable *table = &work->table;
     size_t facets = (size_t)work->input->facet_count;
     branches->volume = memory_alloc(facets, sizeof *branches->volume);
     branches->region = memory_alloc(2 * facets, sizeof *branches->region);
     branches->region_root = memory_alloc(2 * facets, sizeof *branches->region_root);
-    bool *touched = memory_alloc(facets, sizeof *touched);
-    int result = -1;
-    if (!branches->volume || !branches->region || !branches->region_root || !touched ||
+    branches->ordered = memory_alloc(facets, sizeof *branches->ordered);
+    if (!branches->volume || !branches->region || !branches->region_root || !branches->ordered ||
         parity_create(2 * work->input->facet_count, &branches->sides)) {
         report_memory(work);
-    } else {
-        surface_sum_volumes(work, branches->volume);
-        find_regions(branches);
-        /* joining changes the roots: list the sets first */
-        for (int i = 0; i < branches->count; i++)
-            for (int u = table->start[branches->edge[i]]; u < table->start[branches->edge[i] + 1]; u++) {
-                int flip, root = parity_find(&work->parity, table->use[u].facet, &flip);
-                touched[root] = !branches->out[root];
-            }
-        result = 0;
-        for (int root = 0; root < work->input->facet_count && result == 0; root++)
-            if (touched[root]) result = place_set(branches, root);
-        int e = branches->edge[0];
-        for (int i = branches->count - 1; i >= 0; i--) {
-            EdgeNet nets[BRANCH_LIMIT];
-            if (edge_nets(branches, branches->edge[i], nets) > 0) e = branches->edge[i];
-        }
-        if (result) report_branch(work, &table->use[table->start[e]], edge_use_count(table, e));
+        return -1;
     }
-    memory_free(touched);
-    return result;
+    surface_sum_volumes(work, branches->volume);
+    find_regions(branches);
+    for (int root = 0; root < work->input->facet_count; root++)
+        if (branches->ordered[root]) place_set(branches, root);
+    return 0;
 }
 
 /* Takes the sets out that count for nothing, after a last check that all edges cancel. */
@@ -247,14 +234,18 @@ int surface_resolve_branches(SurfaceWork *work)
     } else {
         for (int e = 0; e < table->edge_count; e++)
             if (edge_use_count(table, e) > 2) branches.edge[count++] = e;
-        result = settle_pairs(&branches) > 0 ? settle_regions(&branches) : 0;
-        if (result == 0) result = apply_branches(&branches);
+        result = settle_edges(&branches, false) > 0 ? settle_regions(&branches) : 0;
+        if (result == 0) {
+            settle_edges(&branches, true);
+            result = apply_branches(&branches);
+        }
     }
     memory_free(branches.edge);
     memory_free(branches.out);
     memory_free(branches.volume);
     memory_free(branches.region);
     memory_free(branches.region_root);
+    memory_free(branches.ordered);
     parity_free(&branches.sides);
     return result;
 }

@@ -119,7 +119,7 @@ typedef struct FreeGraph {
     int32_t *node; /* ascending (node_count) */
     int *start;    /* edges at node n: incident[start[n]] .. incident[start[n + 1] - 1] (node_count + 1) */
     int *incident;
-    int *degree;    /* edges at node n not yet taken (node_count) */
+    int *degree; /* edges at node n not yet taken (node_count) */
 } FreeGraph;
 
 int free_graph_build(const EdgeTable *table, FreeGraph *graph); /* 0, or -1 without memory */

@@ -120,17 +120,18 @@ static void write_timing(FILE *file, const Summary *summary)
             summary->threads, summary->threads == 1 ? "" : "s", summary->ns_per_element_cycle);
 }
 
-static void write_memory(FILE *file, const Model *model)
+static void write_memory(FILE *file, const Summary *summary)
 {
     struct rusage usage = {0};
     getrusage(RUSAGE_SELF, &usage);
-    fprintf(file, "\nMemory\n------\n  model, state and buffers %.1f MB (at most %.1f MB), process at most %.1f MB\n",
-            1e-6 * (double)memory_in_use(), 1e-6 * (double)memory_peak(), 1024e-6 * (double)usage.ru_maxrss);
-    if (model->element_count > 0)
-        fprintf(file, "  %.0f bytes per element\n", (double)memory_in_use() / model->element_count);
+    fprintf(file, "\nMemory\n------\n  model, state and buffers %.1f MB", 1e-6 * (double)summary->memory_bytes);
+    if (summary->elements > 0)
+        fprintf(file, " (%.0f bytes per deformable element)", (double)summary->memory_bytes / summary->elements);
+    fprintf(file, "; most ever held %.1f MB, by the whole process %.1f MB\n", 1e-6 * (double)memory_peak(),
+            1024e-6 * (double)usage.ru_maxrss);
 }
 
-void log_write_end(Log *log, const Model *model, const State *state, const Summary *summary)
+void log_write_end(Log *log, const State *state, const Summary *summary)
 {
     FILE *file = log->file;
     if (!file) return;
@@ -141,7 +142,7 @@ void log_write_end(Log *log, const Model *model, const State *state, const Summa
     if (summary->advice) fprintf(file, "  advice: %s\n", summary->advice);
     write_energies(file, state->energy);
     write_timing(file, summary);
-    write_memory(file, model);
+    write_memory(file, summary);
     fprintf(file, "\nstate hash %016llx\n", (unsigned long long)summary->state_hash);
 }
 

@@ -42,7 +42,7 @@ void log_write_messages(Log *log);
 void log_write_event(Log *log, const Clock *clock, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* Outcome, energies, timing table and memory. */
-void log_write_end(Log *log, const Model *model, const State *state, const Summary *summary);
+void log_write_end(Log *log, const State *state, const Summary *summary);
 
 /* Writes what messages are left and the last line (normal or error termination), and closes; nothing if never opened.
  */

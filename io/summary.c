@@ -67,6 +67,7 @@ static void write_all(FILE *file, const Summary *summary)
     write_number(file, "  ", "energy_ratio_min", summary->energy_ratio_min, ",\n");
     write_number(file, "  ", "energy_ratio_max", summary->energy_ratio_max, ",\n");
     write_timing(file, &summary->timing);
+    write_integer(file, "memory_bytes", (long long)summary->memory_bytes);
     write_integer(file, "warnings", summary->warnings);
     if (summary->cause) write_text(file, "cause", summary->cause);
     if (summary->advice) write_text(file, "advice", summary->advice);

@@ -24,6 +24,7 @@ typedef struct Summary {
     double ns_per_element_cycle; /* 0 when there is no element or no cycle */
     double energy_ratio_min, energy_ratio_max;
     StageTimes timing;
+    size_t memory_bytes; /* model, state and buffers of the loop and the writers */
     int warnings;
     uint64_t state_hash;
     const char *cause, *advice; /* of a failure, NULL otherwise */

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "io/checkpoint.h"
+#include "solver/memory.h"
 #include "solver/schedule.h"
 #include "solver/signals.h"
 
@@ -110,6 +111,7 @@ static int recorder_emit(void *user, const Model *model, const State *state, con
     if (recorder->due & SCHEDULE_STATES) recorder->state->clock->states_written++;
     schedule_advance(&recorder->plan, recorder->state->clock, recorder->due);
     recorder->last_time = state->clock->time;
+    recorder->memory = memory_in_use();
     if (last || recorder->stop) progress_finish(&recorder->progress, model, state);
     recorder->due = 0;
     recorder->want_states = recorder->asked = false;

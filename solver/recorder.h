@@ -31,6 +31,7 @@ typedef struct Recorder {
     bool energy_warned;
     double next_look;         /* wall time of the next look at d3kil */
     double last_time;         /* of the last cycle that was emitted; a run's last cycle always is */
+    size_t memory;            /* bytes held when a cycle was last emitted: model, state and buffers */
     int64_t checkpoint_cycle; /* clock->cycle of the last checkpoint written, 0 none */
 } Recorder;
 

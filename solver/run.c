@@ -157,6 +157,7 @@ static Summary make_summary(const Run *run)
                      .energy_ratio_min = energy->ratio_min,
                      .energy_ratio_max = energy->ratio_max,
                      .timing = run->times,
+                     .memory_bytes = run->recorder.memory,
                      .warnings = run->deck.diagnostics.warnings,
                      .state_hash = state_hash(&run->deck.state),
                      .cause = run->failure.failed ? run->failure.cause : NULL,
@@ -184,7 +185,7 @@ static void close_outputs(Run *run, size_t printed)
     run->results = NULL;
     const Summary summary = make_summary(run);
     summary_write(run->directory, &summary, diagnostics);
-    log_write_end(&run->log, &run->deck.model, &run->deck.state, &summary);
+    log_write_end(&run->log, &run->deck.state, &summary);
     print_end(run, &summary);
     fflush(stdout);
     for (size_t i = printed; i < diagnostics->count; i++)

@@ -215,6 +215,9 @@ static void test_failure(void **state)
 {
     Program *program = *state;
     program_write_bag(program, "bag.k", 6, NULL);
+    program_run(program, "run bag.k -j 1 --end-time 0.001");
+    expect_code(program, BILLOW_EXIT_NORMAL);
+    assert_true(program_exists(program, "bag.results/restart.billow"));
     program_run(program, "run bag.k -j 1 --energy-error-limit 1e-15");
     expect_code(program, BILLOW_EXIT_FAILED);
     assert_string_equal(program_last_line(program->out), error);
@@ -222,6 +225,7 @@ static void test_failure(void **state)
     assert_string_equal(program_summary(program, "bag.results", "status"), "\"failed\"");
     assert_true(strlen(program_summary(program, "bag.results", "cause")) > 2);
     assert_true(program_exists(program, "bag.results/results.vtkhdf"));
+    assert_false(program_exists(program, "bag.results/restart.billow")); /* that of the run before is gone */
     char text[1 << 16];
     assert_true(program_read(program, "bag.results/log.txt", text, sizeof text));
     assert_string_equal(program_last_line(text), error);
@@ -253,11 +257,11 @@ static void test_threads(void **state)
     program_run(program, "run bag.k -j 1 --end-time 0.004");
     expect_code(program, BILLOW_EXIT_NORMAL);
     snprintf(hash, sizeof hash, "%s", program_summary(program, "bag.results", "state_hash"));
-    assert_int_equal(setenv("OMP_NUM_THREADS", "2", 1), 0);
+    assert_int_equal(setenv("OMP_NUM_THREADS", "3", 1), 0);
     program_run(program, "run bag.k --end-time 0.004");
     assert_int_equal(unsetenv("OMP_NUM_THREADS"), 0);
     expect_code(program, BILLOW_EXIT_NORMAL);
-    assert_string_equal(program_summary(program, "bag.results", "threads"), "2");
+    assert_string_equal(program_summary(program, "bag.results", "threads"), "3");
     assert_string_equal(program_summary(program, "bag.results", "state_hash"), hash);
     program_run(program, "run bag.k -j 256 --end-time 0.00001");
     expect_contains(program->err, "warning: 256 threads");

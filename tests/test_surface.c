@@ -100,22 +100,23 @@ static void test_tube_has_two_caps(void **state)
 static void test_flat_bag_keeps_most_windings(void **state)
 {
     (void)state;
-    for (int pass = 0; pass < 2; pass++) {
+    for (int pass = 0; pass < 4; pass++) {
         Mesh mesh = mesh_create(100, 100);
         const double o[3] = {0, 0, 0}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0};
+        int odd = pass < 2 ? 7 : 0;
         int low = add_grid(&mesh, 4, 4, o, y, x), high = add_grid(&mesh, 4, 4, o, x, y);
         for (int i = 0; i < 4 * mesh.facet_count; i++) { /* the upper grid's rim becomes the lower one's */
             int at = mesh.facet[i] - high, col = at % 5, row = at / 5;
             if (at >= 0 && (col == 0 || col == 4 || row == 0 || row == 4))
                 mesh.facet[i] = (int32_t)(low + 5 * col + row);
         }
-        turn_facet(&mesh, 7);
+        turn_facet(&mesh, odd);
         turn_facet(&mesh, 20);
-        for (int f = 0; pass == 1 && f < mesh.facet_count; f++) turn_facet(&mesh, f);
+        for (int f = 0; pass % 2 && f < mesh.facet_count; f++) turn_facet(&mesh, f);
         assert_int_equal(mesh_close(&mesh), 0);
         assert_near(mesh.closure.volume, 0.0, 1e-15);
         assert_int_equal(mesh.closure.holes, 0);
-        for (int f = 0; f < mesh.facet_count; f++) assert_int_equal(mesh.sign[f], f == 7 || f == 20 ? -1 : 1);
+        for (int f = 0; f < mesh.facet_count; f++) assert_int_equal(mesh.sign[f], f == odd || f == 20 ? -1 : 1);
         assert_true(said(&mesh, SEVERITY_NOTE, "without volume", "most of the shells"));
         mesh_free(&mesh);
     }
@@ -206,6 +207,30 @@ static void test_eight_free_edges_at_one_node(void **state)
     mesh_free(&mesh);
 }
 
+/* A torus of which every second facet is missing, so that the others meet at nodes alone. */
+static void test_chequered_torus(void **state)
+{
+    (void)state;
+    enum { N = 12 };
+    Mesh mesh = mesh_create(N * N, N * N);
+    for (int i = 0; i < N * N; i++) {
+        double s = i / N * 3.14159265358979 / 6, t = i % N * 3.14159265358979 / 6;
+        add_node(&mesh, (3 + cos(t)) * cos(s), (3 + cos(t)) * sin(s), sin(t));
+    }
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            add_quad(&mesh, i * N + j, (i + 1) % N * N + j, (i + 1) % N * N + (j + 1) % N, i * N + (j + 1) % N);
+    assert_int_equal(mesh_close(&mesh), 0);
+    double volume = mesh.closure.volume;
+    for (int f = 0; f < N * N; f++)
+        for (int i = 0; (f / N + f) % 2 && i < 4; i++) mesh.facet[4 * f + i] = mesh.facet[4 * f];
+    assert_int_equal(mesh_close(&mesh), 0);
+    assert_int_equal(mesh.closure.holes, N * N / 2);
+    assert_int_equal(mesh.closure.components, 1);
+    assert_near(mesh.closure.volume, volume, 1e-10); /* facets and holes are symmetric trapezoids: planar */
+    mesh_free(&mesh);
+}
+
 static void test_two_shells_are_both_outward_and_reported(void **state)
 {
     (void)state;
@@ -236,13 +261,14 @@ static void test_facets_without_area_change_nothing(void **state)
         if (f % 5) continue;
         double m[3];
         for (int k = 0; k < 3; k++) m[k] = 0.5 * (mesh.x[3 * a + k] + mesh.x[3 * c + k]);
-        if (mesh.facet_count + 4 > 32) break;
+        if (mesh.facet_count + 5 > 32) break;
         int n = add_node(&mesh, m[0], m[1], m[2]);
         mesh.facet[4 * f + 3] = mesh.facet[4 * f + 2]; /* a b c */
         add_triangle(&mesh, a, c, n);                  /* no area: n lies on a-c */
         add_triangle(&mesh, a, n, d);
         add_triangle(&mesh, n, c, d);
         add_quad(&mesh, b, b, b, b);
+        add_quad(&mesh, a, b, a, d); /* folded on itself */
     }
     assert_true(mesh.facet_count > count);
     scramble(&mesh, 2);
@@ -322,6 +348,7 @@ int main(void)
         cmocka_unit_test(test_flat_sheet_is_an_open_bag),
         cmocka_unit_test(test_holes_that_touch_at_nodes),
         cmocka_unit_test(test_eight_free_edges_at_one_node),
+        cmocka_unit_test(test_chequered_torus),
         cmocka_unit_test(test_two_shells_are_both_outward_and_reported),
         cmocka_unit_test(test_facets_without_area_change_nothing),
         cmocka_unit_test(test_memory_shortage_is_reported),

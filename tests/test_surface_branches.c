@@ -1,4 +1,4 @@
-/* The bag's surface where meshes are dirty: hanging nodes, inner walls, tethers, flaps, second layers. */
+/* The bag's surface on edges of three and more facets: inner walls, tethers, flaps, second layers. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,100 +17,6 @@ static int left_out(const Mesh *mesh, int first, int end)
     int count = 0;
     for (int f = first; f < end; f++) count += mesh->sign[f] == 0;
     return count;
-}
-
-/* ---- hanging nodes ---- */
-
-/* A box of n quads per side whose lid is refined by k per quad side: each lid edge meets k lid facets' edges. */
-static Mesh box_with_fine_lid(int n, int k)
-{
-    Mesh mesh = mesh_create(6 * (n + 1) * (n + 1) * k * k + 50, 6 * n * n * k * k + 50);
-    const double z[3] = {0, 0, 3}, xz[3] = {1, 0, 3}, yz[3] = {0, 2, 3};
-    add_box(&mesh, n, 0, 1, 2, 3, 32);
-    add_grid(&mesh, n * k, n * k, z, xz, yz);
-    merge_nodes(&mesh);
-    return mesh;
-}
-
-static void test_hanging_nodes_become_seams(void **state)
-{
-    (void)state;
-    for (int k = 2; k <= 5; k++)
-        for (unsigned seed = 0; seed < 4; seed++) {
-            Mesh mesh = box_with_fine_lid(3, k);
-            scramble(&mesh, seed);
-            assert_int_equal(mesh_close(&mesh), 0);
-            assert_int_equal(mesh.closure.seams, 12);
-            assert_int_equal(mesh.closure.holes, 0);
-            assert_int_equal(mesh.closure.free_edges, 12 * (k + 1));
-            assert_int_equal(mesh.closure.components, 1);
-            for (int c = 0; c < 12; c++) assert_int_equal(mesh.closure.caps[c].count, k + 1);
-            assert_near(mesh.closure.volume, 6.0, 1e-12);
-            assert_near(mesh.closure.area, 22.0, 1e-12);
-            assert_true(said(&mesh, SEVERITY_NOTE, "12 slivers of hanging nodes", "closed as seams"));
-            /* the slivers open when the bag deforms: they keep it closed */
-            for (int i = 0; i < 3 * mesh.node_count; i++) mesh.x[i] += 0.05 * sin(5.0 * i);
-            mesh.closure.volume = mesh_volume(&mesh, (const double[3]){0, 0, 0});
-            assert_near(mesh_leak(&mesh), 0.0, 1e-11);
-            mesh_free(&mesh);
-        }
-}
-
-/* A tetrahedron of which one face is cut in four: its three long edges also make a cycle of three. A sag of the middle
- * nodes beyond the seams' tolerance leaves the choice to the search for cycles. */
-static void test_refined_triangle_between_coarse_ones(void **state)
-{
-    (void)state;
-    for (int pass = 0; pass < 2; pass++) {
-        Mesh mesh = mesh_create(10, 20);
-        double sag = pass ? 0.05 : 0.0;
-        add_node(&mesh, 0, 0, 0);
-        add_node(&mesh, 1, 0, 0);
-        add_node(&mesh, 0, 1, 0);
-        add_node(&mesh, 0, 0, 1);
-        add_node(&mesh, 0.5, -sag, -sag);
-        add_node(&mesh, 0.5 + sag, 0.5 + sag, -sag);
-        add_node(&mesh, -sag, 0.5, -sag);
-        add_triangle(&mesh, 0, 1, 3);
-        add_triangle(&mesh, 1, 2, 3);
-        add_triangle(&mesh, 2, 0, 3);
-        add_triangle(&mesh, 0, 6, 4);
-        add_triangle(&mesh, 4, 5, 1);
-        add_triangle(&mesh, 5, 6, 2);
-        add_triangle(&mesh, 4, 6, 5);
-        scramble(&mesh, 4);
-        assert_int_equal(mesh_close(&mesh), 0);
-        assert_int_equal(mesh.closure.cap_count, 3);
-        assert_int_equal(mesh.closure.seams, pass ? 0 : 3);
-        for (int c = 0; c < 3; c++) assert_int_equal(mesh.closure.caps[c].count, 3);
-        assert_int_equal(mesh.closure.components, 1);
-        if (pass == 0) assert_near(mesh.closure.volume, 1.0 / 6.0, 1e-14);
-        assert_near(mesh_leak(&mesh), 0.0, 1e-11);
-        mesh_free(&mesh);
-    }
-}
-
-/* A strip closed to a band by a seam that turns it over. */
-static void test_one_sided_seam_is_an_error(void **state)
-{
-    (void)state;
-    Mesh mesh = mesh_create(30, 30);
-    for (int i = 0; i < 10; i++) {
-        double t = 0.2 * 3.14159265358979 * i;
-        for (int k = -1; k <= 1; k += 2)
-            add_node(&mesh, (1 + 0.2 * k * cos(0.5 * t)) * cos(t), (1 + 0.2 * k * cos(0.5 * t)) * sin(t),
-                     0.2 * k * sin(0.5 * t));
-    }
-    int middle = add_node(&mesh, 1, 0, 0);
-    for (int i = 0; i < 8; i++) add_quad(&mesh, 2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1);
-    add_quad(&mesh, 16, 18, 19, 17);
-    add_triangle(&mesh, 18, 1, middle);
-    add_triangle(&mesh, 18, middle, 19);
-    add_triangle(&mesh, 19, middle, 0);
-    assert_int_equal(mesh_close(&mesh), -1);
-    assert_true(said(&mesh, SEVERITY_ERROR, "cannot be oriented", "nodes 1001 and 1000") ||
-                said(&mesh, SEVERITY_ERROR, "cannot be oriented", "nodes 1000 and 1001"));
-    mesh_free(&mesh);
 }
 
 /* ---- walls ---- */
@@ -192,6 +98,37 @@ static void test_wall_across_a_flat_ring(void **state)
     }
 }
 
+/* A ring with two walls on one circle, which bulge apart: the space between them is a chamber of the bag too. If the
+ * ring is flat the walls follow each other and their pressures cancel. */
+static void test_two_walls_on_one_circle(void **state)
+{
+    (void)state;
+    for (int flat = 0; flat < 2; flat++) {
+        Mesh mesh = mesh_create(60, 80);
+        static const double u[4] = {1, 2, 2, 1}, w[4] = {0, 0, 1, 1};
+        for (int i = 0; i < 48; i++)
+            add_node(&mesh, u[i % 4] * cos(i / 4 * 3.14159265358979 / 6), u[i % 4] * sin(i / 4 * 3.14159265358979 / 6),
+                     flat ? 0.0 : w[i % 4]);
+        for (int i = 0; i < 12; i++)
+            for (int j = 0; j < 4; j++)
+                add_quad(&mesh, 4 * i + j, 4 * ((i + 1) % 12) + j, 4 * ((i + 1) % 12) + (j + 1) % 4,
+                         4 * i + (j + 1) % 4);
+        for (int side = -1; side <= 1; side += 2) {
+            int middle = add_node(&mesh, 1.5, 0.2 * side, flat ? 0.0 : 0.5);
+            for (int j = 0; j < 4; j++) add_triangle(&mesh, j, (j + 1) % 4, middle);
+        }
+        scramble(&mesh, 6);
+        assert_int_equal(mesh_close(&mesh), 0);
+        assert_int_equal(left_out(&mesh, 0, 48), 0);
+        assert_int_equal(mesh.closure.inner, flat ? 0 : 8);
+        assert_near(mesh.closure.volume, flat ? 0.0 : 9.0, 1e-12);
+        for (int i = 0; i < 3 * mesh.node_count; i++) mesh.x[i] += 0.05 * sin(5.0 * i);
+        mesh.closure.volume = mesh_volume(&mesh, (const double[3]){0, 0, 0});
+        assert_near(mesh_leak(&mesh), 0.0, 1e-11); /* every edge cancels */
+        mesh_free(&mesh);
+    }
+}
+
 /* Two chambers that share a flat wall, all of it flat: which is the wall cannot be known. */
 static void test_undecidable_wall_names_the_edge(void **state)
 {
@@ -225,6 +162,24 @@ static void test_boxes_that_touch_along_an_edge(void **state)
     assert_int_equal(mesh.closure.inner, 0);
     assert_near(mesh.closure.volume, 2.0, 1e-13);
     assert_near(mesh_leak(&mesh), 0.0, 1e-11);
+    mesh_free(&mesh);
+}
+
+/* Two tubes stitched together along a line that ends in both rims: no flaps, two holes at each end. */
+static void test_stitched_line_up_to_the_rim(void **state)
+{
+    (void)state;
+    Mesh mesh = mesh_create(500, 500);
+    add_box(&mesh, 2, 0, 1, 1, 1, 48);
+    int first = mesh.node_count;
+    add_box(&mesh, 2, 1, 1, 1, 1, 48);
+    for (int n = first; n < mesh.node_count; n++) mesh.x[3 * n + 1] += 1.0;
+    merge_nodes(&mesh);
+    scramble(&mesh, 8);
+    assert_int_equal(mesh_close(&mesh), 0);
+    assert_int_equal(mesh.closure.inner, 0);
+    assert_int_equal(mesh.closure.holes, 4);
+    assert_near(mesh.closure.volume, 2.0, 1e-13);
     mesh_free(&mesh);
 }
 
@@ -339,19 +294,12 @@ static void test_order_does_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hanging_nodes_become_seams),
-        cmocka_unit_test(test_refined_triangle_between_coarse_ones),
-        cmocka_unit_test(test_one_sided_seam_is_an_error),
-        cmocka_unit_test(test_inner_walls_count_for_nothing),
-        cmocka_unit_test(test_wall_with_a_hole),
-        cmocka_unit_test(test_wall_across_a_flat_ring),
-        cmocka_unit_test(test_undecidable_wall_names_the_edge),
-        cmocka_unit_test(test_boxes_that_touch_along_an_edge),
-        cmocka_unit_test(test_tether_and_flap),
-        cmocka_unit_test(test_wall_up_to_the_rim_of_a_hole),
-        cmocka_unit_test(test_second_layers_are_left_out),
-        cmocka_unit_test(test_loose_sheet_beside_a_closed_bag),
-        cmocka_unit_test(test_order_does_not_matter),
+        cmocka_unit_test(test_inner_walls_count_for_nothing),   cmocka_unit_test(test_wall_with_a_hole),
+        cmocka_unit_test(test_wall_across_a_flat_ring),         cmocka_unit_test(test_undecidable_wall_names_the_edge),
+        cmocka_unit_test(test_boxes_that_touch_along_an_edge),  cmocka_unit_test(test_two_walls_on_one_circle),
+        cmocka_unit_test(test_stitched_line_up_to_the_rim),     cmocka_unit_test(test_tether_and_flap),
+        cmocka_unit_test(test_wall_up_to_the_rim_of_a_hole),    cmocka_unit_test(test_second_layers_are_left_out),
+        cmocka_unit_test(test_loose_sheet_beside_a_closed_bag), cmocka_unit_test(test_order_does_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
