@@ -186,7 +186,7 @@ ALWAYS_INLINE PointResult logarithmic_point(const FabricLaw *law, bool field, bo
     } else {
         major = 0.5 * (t.a11 + t.a22) + sqrt(0.25 * (t.a11 - t.a22) * (t.a11 - t.a22) + t.a12 * t.a12);
     }
-    double share = field && major <= 0.0 ? law->slack_share : 1.0;
+    int slack = field && major <= 0.0;
     if (liner) {
         Tensor2 more = apply_moduli(&law->liner, e);
         t.a11 += more.a11;
@@ -203,7 +203,9 @@ ALWAYS_INLINE PointResult logarithmic_point(const FabricLaw *law, bool field, bo
     result.stress.a22 = jacobian * (u.a12 * w12 + u.a22 * w22);
     result.stress.a12 = jacobian * (u.a11 * w12 + u.a12 * w22);
     result.energy = 0.0;
-    result.stretch = share * (c1 / jacobian);
+    /* a slack element keeps its reference frequency, or what its liner has: it may be taut in the next cycle */
+    double stretch = c1 / jacobian;
+    result.stretch = slack ? larger(1.0, law->slack_share * stretch) : stretch;
     result.tension = larger(major, 0.0) * (c1 / jacobian);
     return result;
 }

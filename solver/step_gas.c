@@ -175,19 +175,15 @@ static int choose_step(Workspace *w, double rate)
         return -1;
     }
     w->element_step = rate > 0.0 ? 2.0 / sqrt(rate) : 0.0;
-    double step = m->deformable_count > 0 && rate + gas_rate > 0.0 ? m->step_scale * 2.0 / sqrt(rate + gas_rate)
-                                                                   : gas_step(w, gas_rate);
-    if (m->deformable_count > 0 && rate == 0.0) {
-        double other = gas_step(w, gas_rate); /* every element is slack */
-        step = other < step ? other : step;
-    }
+    double step = m->deformable_count > 0 && rate > 0.0 ? m->step_scale * 2.0 / sqrt(rate) : gas_step(w, gas_rate);
     if (clock->cycle == 0 && m->step_initial > 0.0 && m->step_initial < step) step = m->step_initial;
     if (m->step_limit_curve >= 0) {
         double limit = curve_value(&m->curves[m->step_limit_curve], clock->time);
         if (limit > 0.0 && limit < step) step = limit;
     }
     if (clock->cycle == 0) clock->step_first = step;
-    if (step < clock->step_first * 1e-6 || step < m->step_minimum * clock->step_first) {
+    if (m->deformable_count > 0 &&
+        (step < clock->step_first * 1e-6 || step < m->step_minimum * clock->step_first)) {
         step_fail(w, "an element has collapsed or is stretched far beyond its size; look at it in the last state, or add "
                      "mass with DT2MS",
                   "the time step fell to %g from %g", step, clock->step_first);
@@ -196,6 +192,9 @@ static int choose_step(Workspace *w, double rate)
     /* the end is met exactly, without a last step of rounding size */
     if (!w->plan.last && step >= left * (1.0 - 1e-9)) step = left;
     clock->step_next = w->plan.dt_next = step;
+    /* at the start the compliance is not known yet */
+    w->plan.implicit_gas = m->airbag_count > 0 && m->deformable_count > 0 &&
+                           (clock->cycle == 0 || gas_rate * step * step > BILLOW_EXPLICIT_GAS);
     return 0;
 }
 

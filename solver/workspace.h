@@ -14,6 +14,10 @@ enum {
     BILLOW_UNJUDGED_CYCLES = 20, /* at the start, in which the energy ratio is 1 by definition */
 };
 
+/* The gas alone may have (w dt)^2 up to this before it is taken implicitly; the stable limit is 4, shared with the
+ * elements. */
+#define BILLOW_EXPLICIT_GAS 0.2
+
 /* Sums over one chunk of nodes; works in force x velocity, to be multiplied by half a step (eq. L3). */
 typedef struct NodeSums {
     double kinetic;                 /* m v.v / 2 at t_n */
@@ -24,10 +28,17 @@ typedef struct NodeSums {
     double compliance;              /* sum of |s|^2 / m, s the area vector of the node */
 } NodeSums;
 
+/* One bag's share of a chunk of nodes, for the implicit gas: s the area vector of a node in this bag's pressure. */
+typedef struct GasPass {
+    double compliance; /* sum of s.s / m */
+    double opening;    /* sum of s.a, a the acceleration at the explicit pressure: d2V/dt2 */
+} GasPass;
+
 /* Everything that one cycle decides once for all threads. */
 typedef struct CyclePlan {
     double time, dt_before, dt_mean, dt_next;
     bool emit, last, stop;
+    bool implicit_gas; /* the gas is stiffer than the step resolves: its pressure is taken at the step's mean volume */
 } CyclePlan;
 
 typedef struct Workspace {
@@ -55,6 +66,7 @@ typedef struct Workspace {
     double *lane_rate;   /* squared frequency of each padded element (padded_count), filled for the critical chunk */
     double *kept_history; /* of one chunk */
     int critical_chunk, critical_group; /* with the largest frequency of this cycle */
+    GasPass *gas_pass;   /* partial sums of the implicit gas (node chunks + 1) x (airbag_count) */
     bool general;        /* body classes or stagnation pressure: the general node loop */
     bool closed;         /* energies of the last cycle are in the ledger */
     double element_step; /* stable step of the elements before TSSFAC */
@@ -64,6 +76,8 @@ typedef struct Workspace {
 /* Phases of the cycle. */
 void step_elements(Workspace *w, int thread, int threads);       /* all threads */
 void step_gas(Workspace *w);                                      /* thread 0: sums, gas, pressures, next step */
+void step_gas_pass(Workspace *w, int thread, int threads);        /* all threads: sums of the implicit gas */
+void step_gas_implicit(Workspace *w);                             /* thread 0: pressures at the mean volume */
 void step_nodes(Workspace *w, int thread, int threads);           /* all threads: free nodes */
 void step_special(Workspace *w);                                  /* thread 0: special nodes */
 void step_tick(Workspace *w);                                     /* thread 0: the clock moves on */

@@ -55,7 +55,8 @@ static void flat_and_empty(void **state)
             low = fmin(low, runs[i].samples[k].step);
             high = fmax(high, runs[i].samples[k].step);
         }
-        verify_close("D1 step over the first 100 cycles", low, high, 1e-2);
+        verify_between("D1 least step over the largest, 100 cycles", low / high, 0.5, 1);
+        verify_balance(&runs[i], 1e-2);
         assert_true(isfinite(last->pressure) && last->volume > 0.01);
         for (size_t k = 0; k < runs[i].count; k++) assert_true(isfinite(runs[i].samples[k].kinetic));
     }
@@ -98,40 +99,46 @@ static void flat_to_static(void **state)
 /* ---- slivers ------------------------------------------------------------------------------------------------------
  */
 
-static void run_slivers(ScenePattern pattern, double stretch, double tssfac, int64_t cycles)
+/* A strip of slivers 1 by 0.01, idle or stretched, with a little noise to start from. */
+static void make_slivers(Scene *scene, ScenePattern pattern, double stretch, double tssfac)
 {
     const double length = 1, width = 0.04, seed = 1e-9;
-    Scene scene = {0};
-    SceneText *deck = &scene.deck;
+    SceneText *deck = &scene->deck;
+    SceneMesh *mesh = &scene->mesh;
     deck->exact = true;
-    scene_add_rectangle(&scene.mesh, 1, pattern, 1, 4, length, width);
+    scene_add_rectangle(mesh, 1, pattern, 1, 4, length, width);
     scene_begin(deck, "slivers", 1e3, tssfac);
     scene_write_part(deck, 1, 1, 1, "slivers");
     scene_write_section(deck, 1, 9, 3.5e-4);
     SceneFabric fabric = scene_isotropic(2, false, 800, 2e8, 0.3);
     scene_write_fabric(deck, 1, &fabric);
     if (stretch > 0) {
-        scene_write_ramp(deck, 1, 0.02, 1);
-        for (int i = 0; i < scene.mesh.node_count; i++) {
-            const double *x = scene.mesh.x + 3 * i;
-            if (x[0] > length - 1e-9) scene_write_motion(deck, i + 1, 1, 2, 1, stretch * length);
-        }
-        scene_write_node_set(deck, 1, &scene.mesh, scene_select_plane, &(ScenePlane){0, 0, 1e-9});
+        scene_write_ramp(deck, 1, 0.01, 1);
+        for (int i = 0; i < mesh->node_count; i++)
+            if (mesh->x[3 * i] > length - 1e-9) scene_write_motion(deck, i + 1, 1, 2, 1, stretch * length);
+        scene_write_node_set(deck, 1, mesh, scene_select_plane, &(ScenePlane){0, 0, 1e-9});
         scene_write_spc(deck, 1, true, true, true);
-        scene_write_curve(deck, 2, 4, (const double[]){0, 5000, 0.05, 5000, 0.051, 0, 1e3, 0});
+        scene_write_curve(deck, 2, 4, (const double[]){0, 1500, 0.05, 1500, 0.051, 0, 1e3, 0});
         scene_write_damping(deck, 2, 0);
     }
-    for (int i = 0; i < scene.mesh.node_count; i++) {
+    for (int i = 0; i < mesh->node_count; i++) {
         scene_print(deck, "*INITIAL_VELOCITY_NODE\n");
         SCENE_CARD(deck, i + 1, seed * (i % 3 - 1), seed * (i % 5 - 2), stretch > 0 ? seed * (i % 2) : 0);
     }
-    scene_end(deck, &scene.mesh);
+    scene_end(deck, mesh);
+}
+
+static void run_slivers(ScenePattern pattern, double stretch, double tssfac, int64_t cycles)
+{
+    Scene scene = {0};
+    make_slivers(&scene, pattern, stretch, tssfac);
     VerifyRun run;
     verify_scene(&run, &scene, &(VerifyOptions){.every = 100, .stop = cycles});
-    double from = stretch > 0 ? 0.055 : 0, late = run.samples[run.count - 1].time;
-    double early = verify_largest(&run, from, offsetof(VerifySample, kinetic));
+    double from = stretch > 0 ? 0.06 : 0, late = run.samples[run.count - 1].time;
+    double scale = 0.5 * 800 * 3.5e-4 * 0.04 * 2e8 / (800 * 0.91); /* m c^2 / 2 of the strip */
     print_message("    %ld cycles, %.2g s of model time, %.1f s\n", (long)run.cycles, late, run.times.total);
-    verify_between("D3 largest kinetic energy [J]", early, 0, stretch > 0 ? 1e-12 : 1e-15);
+    verify_between("D3 kinetic energy over m c^2 / 2", verify_largest(&run, from, offsetof(VerifySample, kinetic)) / scale,
+                   0, stretch > 0 ? 1e-16 : 1e-20);
     assert_true(late > from);
     verify_free(&run);
 }
@@ -174,8 +181,8 @@ static void slack_panel(void **state)
         scene_end(deck, &scene.mesh);
         VerifyRun run;
         verify_scene(&run, &scene, &(VerifyOptions){.every = 1});
-        double least = verify_smallest(&run, 1e-4, offsetof(VerifySample, element_step));
-        verify_between("D6 least step over the first", least / run.samples[0].element_step, 0.5, 2);
+        double least = verify_smallest(&run, 1e-4, offsetof(VerifySample, step));
+        verify_between("D6 least step over the first", least / run.samples[1].step, 0.1, 2);
         verify_between("D6 energy at the end [J]", run.samples[run.count - 1].internal, -1e-3, 1e-3);
         assert_true(isfinite(run.samples[run.count - 1].kinetic));
         verify_free(&run);
@@ -323,7 +330,7 @@ static void overpressure(void **state)
 {
     (void)state;
     Scene scene = {0};
-    begin_skin(&scene, 150);
+    begin_skin(&scene, 1500);
     scene_add_sphere(&scene.mesh, 1, SCENE_DIAGONAL, 6, 0.3);
     scene_end(&scene.deck, &scene.mesh);
     VerifyRun run;
