@@ -1,7 +1,8 @@
 /* Edges of three and more facets: which facets lie between two chambers of one bag and count for nothing.
  *
- * On every edge the signed uses of the facets that count must cancel (S11). Where one or two sets of facets are left on
- * an edge that decides; else the regions of space around the edges do: a wall has bounded regions on both sides. */
+ * On every edge the signed uses of the facets that count must cancel (S10). A set of facets left alone on an edge is
+ * out at once; else the regions of space around the edges decide: a wall has bounded regions on both sides. Where a
+ * flat bag has no such regions, two sets left alone on an edge follow each other. */
 #include "airbag/surface_internal.h"
 
 #include <math.h>

@@ -68,7 +68,9 @@ void cap_measure(SurfaceCap *cap, const double *x)
     }
     cap->area = 0.5 * length;
     cap->size = 2.0 * radius;
-    cap->planarity = cap->size > 0.0 ? off / cap->size : 0.0;
+    cap->planarity = off > 1e-12 * cap->size ? off / cap->size : 0.0;
+    for (int k = 0; k < 3; k++) /* these are for reading: no rounding errors next to zero */
+        if (fabs(cap->centre[k]) < 1e-9 * cap->size) cap->centre[k] = 0.0;
 }
 
 bool loop_is_narrow(const int32_t *node, int count, const double *x)

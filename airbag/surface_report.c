@@ -12,12 +12,6 @@ typedef struct ShellReport {
     double low[3], high[3];
 } ShellReport;
 
-/* A coordinate for print: rounding errors next to the size become zero. */
-static double printed(double coordinate, double size)
-{
-    return coordinate < 1e-9 * size && coordinate > -1e-9 * size ? 0.0 : coordinate;
-}
-
 static void note(const SurfaceWork *work, Severity severity, const char *text)
 {
     diagnostics_add(work->diagnostics, severity, work->input->source, work->input->keyword, "%s: %s", work->input->name,
@@ -95,8 +89,7 @@ void report_open(const SurfaceWork *work, const Loop *loop, int facets, Severity
         "%s %d shells at node %d are a flat sheet that encloses nothing: their free-edge loop of %d edges (nodes %s; "
         "centre %g %g %g, size %g) is as large as the sheet; %s",
         severity == SEVERITY_ERROR ? "the bag is open: its" : "left out of the bag:", facets,
-        work->input->node_id[node[0]], loop->count, list, printed(cap.centre[0], cap.size),
-        printed(cap.centre[1], cap.size), printed(cap.centre[2], cap.size), cap.size,
+        work->input->node_id[node[0]], loop->count, list, cap.centre[0], cap.centre[1], cap.centre[2], cap.size,
         severity == SEVERITY_ERROR ? "add the missing part to the bag's set or merge the nodes along the loop"
                                    : "merge the nodes along the loop if they belong to the bag's wall");
     note(work, severity, text);
@@ -124,8 +117,7 @@ static void report_caps(const SurfaceWork *work, const SurfaceClosure *closure)
         int used = snprintf(
             text, sizeof text,
             "hole of %d edges capped: nodes %s; centre %g %g %g, size %g, area %g, out of plane %g of its size",
-            cap->count, list, printed(cap->centre[0], cap->size), printed(cap->centre[1], cap->size),
-            printed(cap->centre[2], cap->size), cap->size, cap->area, printed(cap->planarity, 1.0));
+            cap->count, list, cap->centre[0], cap->centre[1], cap->centre[2], cap->size, cap->area, cap->planarity);
         if (work->input->fixed)
             used += snprintf(text + used, sizeof text - (size_t)used, ", %d of its nodes fixed", cap->fixed_count);
         if (far_from_plane)

@@ -13,43 +13,47 @@ typedef struct Tensor2 {
     double a11, a22, a12;
 } Tensor2;
 
-/* What a law returns at a point. */
-typedef struct PointResult {
+/* What the Green law returns at a point. */
+typedef struct GreenResult {
     Tensor2 stress; /* second Piola-Kirchhoff */
-    double energy;  /* density per reference volume, laws with a stored energy only */
-    double stretch; /* factor on the squared frequency of the reference state (eq. E21, E22) */
-    double tension; /* largest principal stress, not below 0, times the stretch factor where it acts on it */
-} PointResult;
+    double energy;  /* density per reference volume */
+    double tension; /* largest principal stress, not below 0 */
+} GreenResult;
 
 /* The vector loops need every call dissolved. */
 #define ALWAYS_INLINE static inline __attribute__((always_inline))
 
-#define BILLOW_TINY 1e-300
+#define BILLOW_TINY 1e-150
 /* Squared stretches are kept above this: an element folded to less than 1e-6 of its width pushes no harder. */
 #define BILLOW_LEAST_SQUARED_STRETCH 1e-12
 
 ALWAYS_INLINE double larger(double a, double b) { return a > b ? a : b; }
 ALWAYS_INLINE double smaller(double a, double b) { return a < b ? a : b; }
 
-/* Natural logarithm of a normal positive number, to 1 ulp, in operations that vectorise. x = 2^k m, m in
- * [sqrt(1/2), sqrt(2)), log m = 2 atanh((m - 1)/(m + 1)); the polynomial is Chebyshev's on that range. */
-ALWAYS_INLINE double log_lane(double x)
+#define BILLOW_LOG2 0.6931471805599453
+
+/* x = 2^k m with m in [sqrt(1/2), sqrt(2)), in operations that vectorise. x: normal and positive. */
+ALWAYS_INLINE void split_lane(double x, double *m, double *k)
 {
-    const double c0 = 0.666666666666667, c1 = 0.39999999999878855, c2 = 0.28571428630292806, c3 = 0.22222210753758562,
-                 c4 = 0.18182908682787055, c5 = 0.15331129900213797, c6 = 0.14624176245198378;
     uint64_t bits, shifted, mantissa, count;
     memcpy(&bits, &x, sizeof bits);
     shifted = bits - 0x3FE6A09E667F3BCDu + (1024ull << 52);
     count = shifted >> 52;
     mantissa = bits - (count << 52) + (1024ull << 52);
     uint64_t biased = count | 0x4330000000000000u; /* 2^52 + count as a double */
-    double m, k;
-    memcpy(&m, &mantissa, sizeof m);
-    memcpy(&k, &biased, sizeof k);
-    k -= 4503599627370496.0 + 1024.0;
-    double f = m - 1.0, s = f / (m + 1.0), u = s * s;
-    double p = c0 + u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * (c5 + u * c6)))));
-    return k * 0.6931471805599453 + (2.0 * s + s * u * p);
+    memcpy(m, &mantissa, sizeof *m);
+    memcpy(k, &biased, sizeof *k);
+    *k -= 4503599627370496.0 + 1024.0;
+}
+
+/* 2 atanh(s) for |s| <= (sqrt(2) - 1)/(sqrt(2) + 1): Chebyshev's polynomial, error below 1e-17. */
+ALWAYS_INLINE double log_series(double s)
+{
+    const double c0 = 0.666666666666667, c1 = 0.39999999999878855, c2 = 0.28571428630292806, c3 = 0.22222210753758562,
+                 c4 = 0.18182908682787055, c5 = 0.15331129900213797, c6 = 0.14624176245198378;
+    double u = s * s, uu = u * u;
+    double p = (c0 + u * c1) + uu * ((c2 + u * c3) + uu * ((c4 + u * c5) + uu * c6));
+    return 2.0 * s + s * u * p;
 }
 
 ALWAYS_INLINE Tensor2 apply_moduli(const PlaneModuli *d, Tensor2 e)
@@ -141,11 +145,9 @@ ALWAYS_INLINE double major_stretch_squared(Tensor2 c)
 }
 
 /* FORM 2: S = D : E with the tension field and the liner (eq. F5). */
-ALWAYS_INLINE PointResult green_point(const FabricLaw *law, const Compliance *b, bool field, bool liner,
-                                      Tensor2 c)
+ALWAYS_INLINE GreenResult green_stress(const FabricLaw *law, const Compliance *b, bool field, bool liner, Tensor2 e)
 {
-    PointResult result;
-    Tensor2 e = green_strain(c);
+    GreenResult result;
     double major;
     if (field) {
         result.stress = relax_compression(&law->fabric, b, e, &major);
@@ -163,51 +165,97 @@ ALWAYS_INLINE PointResult green_point(const FabricLaw *law, const Compliance *b,
         major += larger(t.a11, 0.0) + larger(t.a22, 0.0) + fabs(t.a12);
     }
     result.energy = 0.5 * contract(result.stress, e);
-    result.stretch = major_stretch_squared(c);
     result.tension = larger(major, 0.0);
     return result;
 }
 
-/* FORM 0, 1 and MAT_ELASTIC: Cauchy stress t = D : ln U on the constant thickness, S = J U^-1 t U^-1 (eq. F1 to F4). */
-ALWAYS_INLINE PointResult logarithmic_point(const FabricLaw *law, bool field, bool liner, Tensor2 c)
+/* Logarithms of two normal positive numbers with one division: see log_lane. */
+ALWAYS_INLINE void log_pair(double x, double y, double *log_x, double *log_y)
 {
-    PointResult result;
+    double mx, kx, my, ky;
+    split_lane(x, &mx, &kx);
+    split_lane(y, &my, &ky);
+    double fx = mx - 1.0, fy = my - 1.0, px = mx + 1.0, py = my + 1.0, inverse = 1.0 / (px * py);
+    *log_x = kx * BILLOW_LOG2 + log_series(fx * py * inverse);
+    *log_y = ky * BILLOW_LOG2 + log_series(fy * px * inverse);
+}
+
+/* The principal frame of C and the stretches, FORM 0, 1 and MAT_ELASTIC, first stage. Double angle (c, s). */
+typedef struct StretchFrame {
+    double cosine, sine; /* of twice the angle of the major direction */
+    double c1, c2;       /* squared principal stretches, c1 >= c2 */
+    double narrow, wide; /* l2/l1 and l1/l2 */
+} StretchFrame;
+
+ALWAYS_INLINE StretchFrame stretch_frame(Tensor2 c)
+{
+    StretchFrame f;
     double half = 0.5 * (c.a11 - c.a22), mean = 0.5 * (c.a11 + c.a22);
-    double radius = sqrt(half * half + c.a12 * c.a12);
-    double c1 = larger(mean + radius, BILLOW_LEAST_SQUARED_STRETCH), det = c.a11 * c.a22 - c.a12 * c.a12;
-    double c2 = larger(det / c1, BILLOW_LEAST_SQUARED_STRETCH);
-    double l1 = 0.5 * log_lane(c1), l2 = 0.5 * log_lane(c2);
-    double scale = 0.5 * (l1 - l2) / (radius + BILLOW_TINY), centre = 0.5 * (l1 + l2);
-    Tensor2 e = {centre + scale * half, centre - scale * half, scale * c.a12};
+    double radius = sqrt(half * half + c.a12 * c.a12) + BILLOW_TINY;
+    f.c1 = larger(mean + radius, BILLOW_LEAST_SQUARED_STRETCH);
+    double det = larger(c.a11 * c.a22 - c.a12 * c.a12, BILLOW_LEAST_SQUARED_STRETCH * f.c1);
+    double inverse = 1.0 / (f.c1 * det * radius); /* one division for three */
+    double by_c1 = det * radius * inverse, by_det = f.c1 * radius * inverse, by_radius = f.c1 * det * inverse;
+    f.cosine = (half + BILLOW_TINY) * by_radius;
+    f.sine = c.a12 * by_radius;
+    f.c2 = det * by_c1;
+    double jacobian = sqrt(det);
+    f.narrow = jacobian * by_c1;
+    f.wide = f.c1 * jacobian * by_det;
+    return f;
+}
+
+/* Second stage: the logarithmic strain in material axes (eq. F1). */
+ALWAYS_INLINE Tensor2 logarithmic_strain(double cosine, double sine, double c1, double c2)
+{
+    double l1, l2;
+    log_pair(c1, c2, &l1, &l2);
+    double centre = 0.25 * (l1 + l2), spread = 0.25 * (l1 - l2);
+    Tensor2 e = {centre + spread * cosine, centre - spread * cosine, spread * sine};
+    return e;
+}
+
+/* Third stage: Cauchy stress t = D : ln U with the tension field and the liner (eq. F4 to F7). *major: largest principal
+ * stress; *slack: 1 where the fabric carries nothing, else 0. */
+ALWAYS_INLINE Tensor2 logarithmic_stress(const FabricLaw *law, bool field, bool liner, Tensor2 e, double *major,
+                                         double *slack)
+{
     Tensor2 t = apply_moduli(&law->fabric, e);
-    double major = 0.0;
     if (field) {
-        t = remove_compression(t, &major);
+        t = remove_compression(t, major);
     } else {
-        major = 0.5 * (t.a11 + t.a22) + sqrt(0.25 * (t.a11 - t.a22) * (t.a11 - t.a22) + t.a12 * t.a12);
+        double half = 0.5 * (t.a11 - t.a22);
+        *major = 0.5 * (t.a11 + t.a22) + sqrt(half * half + t.a12 * t.a12);
     }
-    int slack = field && major <= 0.0;
+    *slack = field && *major <= 0.0 ? 1.0 : 0.0;
     if (liner) {
         Tensor2 more = apply_moduli(&law->liner, e);
         t.a11 += more.a11;
         t.a22 += more.a22;
         t.a12 += more.a12;
-        major += larger(more.a11, 0.0) + larger(more.a22, 0.0) + fabs(more.a12);
+        *major += larger(more.a11, 0.0) + larger(more.a22, 0.0) + fabs(more.a12);
+        if (field) { /* a sheet without any direction in tension is slack, its liner too (eq. F7a) */
+            double half = 0.5 * (t.a11 - t.a22);
+            int loose = 0.5 * (t.a11 + t.a22) + sqrt(half * half + t.a12 * t.a12) <= 0.0;
+            t.a11 = loose ? 0.0 : t.a11;
+            t.a22 = loose ? 0.0 : t.a22;
+            t.a12 = loose ? 0.0 : t.a12;
+        }
     }
-    double jacobian = sqrt(c1 * c2), inverse = 1.0 / (jacobian * sqrt(2.0 * mean + 2.0 * jacobian));
-    /* U^-1 = (tr U 1 - U) / J with U = (C + J 1) / sqrt(tr C + 2 J) */
-    Tensor2 u = {(c.a22 + jacobian) * inverse, (c.a11 + jacobian) * inverse, -c.a12 * inverse};
-    double w11 = t.a11 * u.a11 + t.a12 * u.a12, w12 = t.a11 * u.a12 + t.a12 * u.a22;
-    double w21 = t.a12 * u.a11 + t.a22 * u.a12, w22 = t.a12 * u.a12 + t.a22 * u.a22;
-    result.stress.a11 = jacobian * (u.a11 * w11 + u.a12 * w21);
-    result.stress.a22 = jacobian * (u.a12 * w12 + u.a22 * w22);
-    result.stress.a12 = jacobian * (u.a11 * w12 + u.a12 * w22);
-    result.energy = 0.0;
-    /* a slack element keeps its reference frequency, or what its liner has: it may be taut in the next cycle */
-    double stretch = c1 / jacobian;
-    result.stretch = slack ? larger(1.0, law->slack_share * stretch) : stretch;
-    result.tension = larger(major, 0.0) * (c1 / jacobian);
-    return result;
+    return t;
+}
+
+/* Fourth stage: S = J U^-1 t U^-1 on the constant thickness; in the principal axes of C: S11 = t11 l2/l1,
+ * S22 = t22 l1/l2, S12 = t12 (eq. F3). */
+ALWAYS_INLINE Tensor2 pull_back(Tensor2 t, double cosine, double sine, double narrow, double wide)
+{
+    double t_mean = 0.5 * (t.a11 + t.a22), t_half = 0.5 * (t.a11 - t.a22);
+    double along = t_half * cosine + t.a12 * sine, across = t.a12 * cosine - t_half * sine;
+    double s1 = (t_mean + along) * narrow, s2 = (t_mean - along) * wide;
+    double s_mean = 0.5 * (s1 + s2), s_half = 0.5 * (s1 - s2);
+    double turned = s_half * cosine - across * sine;
+    Tensor2 s = {s_mean + turned, s_mean - turned, s_half * sine + across * cosine};
+    return s;
 }
 
 #endif

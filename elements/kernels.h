@@ -28,8 +28,9 @@ enum {
 /* History per point and lane: Green strain (11, 22, 12) and second Piola-Kirchhoff stress of the last step. */
 enum { HISTORY_POINT_SIZE = 6 };
 
-/* Corner buffer per block: [corner][force x y z, area vector share x y z][lane]. */
-enum { CORNER_SIZE = 6 };
+/* Records of the corner buffer, one per element [doubles]: a triangle has the stress forces of its corners (3 x 3) and
+ * the area vector share that is theirs alike (3); a quad its forces (4 x 3) and the corners' shares (4 x 3). */
+enum { TRIANGLE_RECORD = 12, QUAD_RECORD = 24 };
 
 /* Sums over one chunk (BILLOW_CHUNK blocks of one group). */
 typedef struct ChunkSums {
@@ -57,7 +58,7 @@ typedef struct KernelInput {
 typedef void ElementKernel(const KernelInput *input, ChunkSums *sums);
 
 typedef struct KernelTable {
-    const char *name;
+    int level;               /* 2, 3 or 4: x86-64-v2 and so on */
     ElementKernel *surface;  /* LAW_SURFACE, any kind */
     ElementKernel *triangle; /* any law */
     ElementKernel *quad_full;

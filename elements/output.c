@@ -34,11 +34,14 @@ static void add_point(const ElementGroup *group, const double *point, const doub
     double det = larger(c.a11 * c.a22 - c.a12 * c.a12, BILLOW_LEAST_SQUARED_STRETCH), j = sqrt(det);
     if (group->law == LAW_GREEN) {
         Compliance b = make_compliance(&law->fabric);
-        PointResult r = green_point(law, &b, law->no_compression, law->has_liner, c);
+        GreenResult r = green_stress(law, &b, law->no_compression, law->has_liner, green_strain(c));
         to_global(r.stress, f1, f2, share / j, result->stress); /* Cauchy stress on the current area, thickness kept */
     } else {
-        PointResult r = logarithmic_point(law, law->no_compression, law->has_liner, c);
-        to_global(r.stress, f1, f2, share / j, result->stress);
+        StretchFrame f = stretch_frame(c);
+        double major, slack;
+        Tensor2 t = logarithmic_stress(law, law->no_compression, law->has_liner,
+                                       logarithmic_strain(f.cosine, f.sine, f.c1, f.c2), &major, &slack);
+        to_global(pull_back(t, f.cosine, f.sine, f.narrow, f.wide), f1, f2, share / j, result->stress);
     }
     /* Green strain in the rotated material axes: R = F U^-1 */
     double inverse = 1.0 / (j * sqrt(c.a11 + c.a22 + 2.0 * j));
@@ -49,10 +52,8 @@ static void add_point(const ElementGroup *group, const double *point, const doub
     }
     Tensor2 e = green_strain(c);
     if (group->law == LAW_LOGARITHMIC) {
-        double half = 0.5 * (c.a11 - c.a22), mean = 0.5 * (c.a11 + c.a22), radius = sqrt(half * half + c.a12 * c.a12);
-        double c1 = larger(mean + radius, BILLOW_LEAST_SQUARED_STRETCH), c2 = larger(det / c1, BILLOW_LEAST_SQUARED_STRETCH);
-        double l1 = 0.5 * log_lane(c1), l2 = 0.5 * log_lane(c2), scale = 0.5 * (l1 - l2) / (radius + BILLOW_TINY);
-        e = (Tensor2){0.5 * (l1 + l2) + scale * half, 0.5 * (l1 + l2) - scale * half, scale * c.a12};
+        StretchFrame f = stretch_frame(c);
+        e = logarithmic_strain(f.cosine, f.sine, f.c1, f.c2);
     }
     to_global(e, r1, r2, share, result->strain);
 }

@@ -20,7 +20,7 @@ typedef struct SceneMesh {
     bool failed; /* memory ran out */
 } SceneMesh;
 
-/* How a piece is divided. Grids know all; discs and spheres know triangles (any pattern but quads) and quads. */
+/* How a piece is divided. Spheres know only quads and triangles (any other pattern). */
 typedef enum ScenePattern {
     SCENE_QUADS,
     SCENE_DIAGONAL, /* two triangles, diagonals along (+1, +1): "d1" where the centre is the first corner */
@@ -45,8 +45,9 @@ void scene_add_grid(SceneMesh *mesh, int part, ScenePattern pattern, int nx, int
 /* The rectangle lx x ly in the plane z = 0 with its first corner at the origin, normal +z. */
 void scene_add_rectangle(SceneMesh *mesh, int part, ScenePattern pattern, int nx, int ny, double lx, double ly);
 
-/* Disc about the origin in the plane z = 0, normal +z. Triangles: n rings of 6 i nodes about the centre (node first),
- * 6 n^2 of them. Quads: an O-grid of 5 blocks, n cells from centre to rim, about 3 n^2 of them. Nodes welded. */
+/* Disc about the origin in the plane z = 0, normal +z. SCENE_DIAGONAL: n rings of 6 i nodes about the centre (node
+ * first), 6 n^2 triangles. Other patterns: an O-grid of 5 blocks, n cells from centre to rim, about 3 n^2 squares, each
+ * divided by the pattern. Nodes welded. */
 void scene_add_disc(SceneMesh *mesh, int part, ScenePattern pattern, int n, double radius);
 
 /* Ring inner < r < outer in the plane z = 0, normal +z: nr x nt squares, closed. */

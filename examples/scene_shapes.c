@@ -135,15 +135,15 @@ static void map_outer(const void *user, double s, double t, double x[3])
 
 void scene_add_disc(SceneMesh *mesh, int part, ScenePattern pattern, int n, double radius)
 {
-    if (pattern != SCENE_QUADS) {
+    if (pattern == SCENE_DIAGONAL) {
         add_triangle_disc(mesh, part, n, radius);
         return;
     }
     int first = mesh->node_count, half = n > 1 ? (n + 1) / 2 : 1, outer = n - half > 0 ? n - half : 1;
     DiscBlock block = {radius, 0};
-    scene_add_grid(mesh, part, SCENE_QUADS, 2 * half, 2 * half, map_core, &block);
+    scene_add_grid(mesh, part, pattern, 2 * half, 2 * half, map_core, &block);
     for (block.quarter = 0; block.quarter < 4; block.quarter++)
-        scene_add_grid(mesh, part, SCENE_QUADS, outer, 2 * half, map_outer, &block);
+        scene_add_grid(mesh, part, pattern, outer, 2 * half, map_outer, &block);
     scene_weld(mesh, first, 1e-6 * radius / n);
 }
 

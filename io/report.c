@@ -103,8 +103,8 @@ static void write_closure(const SurfaceClosure *closure, FILE *stream)
             closure->volume, closure->area, closure->components, closure->components == 1 ? "" : "s", closure->turned,
             closure->turned == 1 ? "" : "s");
     fprintf(stream, "    free edges: %d, closed by %d cap%s and %d seam%s of hanging nodes\n", closure->free_edges,
-            closure->cap_count, closure->cap_count == 1 ? "" : "s", closure->seams, closure->seams == 1 ? "" : "s");
-    for (int i = 0; i < closure->cap_count; i++) {
+            closure->holes, closure->holes == 1 ? "" : "s", closure->seams, closure->seams == 1 ? "" : "s");
+    for (int i = 0; i < closure->holes; i++) {
         const SurfaceCap *cap = &closure->caps[i];
         fprintf(stream,
                 "      cap %d: %d edges about (%.6g, %.6g, %.6g), area %.6g, out of plane by %.3g of its size, %s\n",

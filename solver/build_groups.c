@@ -58,7 +58,7 @@ static void place_groups(Model *m)
         m->padded_count += group->block_count * LANES;
         m->chunk_count += (group->block_count + BILLOW_CHUNK - 1) / BILLOW_CHUNK;
         m->history_size += blocks * (size_t)group->history_size * LANES;
-        m->corner_size += blocks * (size_t)group->corner_count * CORNER_SIZE * LANES;
+        m->corner_size += blocks * LANES * (group->corner_count == 3 ? TRIANGLE_RECORD : QUAD_RECORD);
     }
 }
 
@@ -139,11 +139,12 @@ static int list_corners(Builder *b)
         const ElementGroup *group = &m->groups[g];
         for (int e = 0; e < group->element_count; e++) {
             const ShellRecord *r = &b->records[b->order[first + e]];
-            size_t block = (size_t)e / LANES, lane = (size_t)e % LANES, per_block = (size_t)group->corner_count * CORNER_SIZE * LANES;
+            bool triangle = group->corner_count == 3;
+            size_t record = group->corner_offset + (size_t)e * (triangle ? TRIANGLE_RECORD : QUAD_RECORD);
             for (int a = 0; a < group->corner_count; a++) {
                 int32_t slot = m->corner_start[r->node[a] + 1]++;
-                size_t offset = group->corner_offset + block * per_block + (size_t)a * CORNER_SIZE * LANES + lane;
-                m->corner_list[slot] = (int32_t)offset;
+                m->corner_list[slot].force = (int32_t)record + 3 * a;
+                m->corner_list[slot].share = (int32_t)record + (triangle ? 9 : 12 + 3 * a);
                 m->corner_set[slot] = group->pressure_set;
             }
         }
@@ -152,6 +153,8 @@ static int list_corners(Builder *b)
     for (size_t n = 0; n < nodes; n++)
         m->node_pressure[n] =
             m->corner_start[n + 1] > m->corner_start[n] ? m->corner_set[m->corner_start[n]] : -1;
+    for (size_t n = 0; n < nodes; n++)
+        if (m->node_pressure[n] < 0) m->node_pressure[n] = m->pressure_set_count;
     return 0;
 }
 

@@ -114,7 +114,7 @@ static int close_bag(Builder *b, int airbag, FacetList *list)
                           .node_id = node_id, .name = name, .source = definition->source, .keyword = "*AIRBAG"};
     if (!status) status = surface_close(&input, turn, &b->closures[airbag], b->diagnostics);
     for (size_t i = 0; !status && i < list->count; i++)
-        status = add_source(b, list->record[i], airbag, list->sign[i] * turn[i]);
+        if (turn[i] != 0) status = add_source(b, list->record[i], airbag, list->sign[i] * turn[i]); /* 0: inside */
     memory_free(turn);
     memory_free(id);
     memory_free(node_id);

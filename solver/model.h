@@ -43,12 +43,12 @@ typedef struct ElementGroup {
     int geometry_size;      /* doubles per lane */
     int history_size;       /* doubles per lane in State.history */
     size_t history_offset;  /* of block 0 in State.history [doubles] */
-    size_t corner_offset;   /* of block 0 in the corner buffer [doubles]; 6 x corner_count x LANES per block */
+    size_t corner_offset;   /* of its first element's record in the corner buffer [doubles]; elements/kernels.h */
     FabricLaw material;     /* constants of the law */
     bool has_history;
 } ElementGroup;
 
-enum { BILLOW_CHUNK = 8 }; /* blocks in one fixed partial sum */
+enum { BILLOW_CHUNK = 2 }; /* blocks in one fixed partial sum */
 
 /* A set of pressures that act together on a surface: net pressure = sum of sign * source pressure. */
 typedef struct PressureSet {
@@ -56,6 +56,11 @@ typedef struct PressureSet {
     int source[4]; /* index into pressure sources: airbags first, then segment loads */
     int sign[4];   /* +1: the source is on the inner side of the stored orientation */
 } PressureSet;
+
+/* One corner of an element in the corner buffer: offsets of its stress force and of its area vector share. */
+typedef struct CornerPlace {
+    int32_t force, share;
+} CornerPlace;
 
 typedef struct Part {
     int id, deck_index;
@@ -105,7 +110,7 @@ typedef struct Model {
     double *velocity;      /* initial velocity (node_count x 3) [L/T] */
     double *mass;          /* lumped, mass scaling included (node_count) [M] */
     double *inverse_mass;  /* (node_count); 0 for massless nodes */
-    int32_t *node_pressure;/* pressure set of nodes in the lean loop (node_count), -1 none */
+    int32_t *node_pressure;/* pressure set of nodes in the lean loop (node_count); pressure_set_count: none */
     int32_t *node_class;   /* body-force and damping class (node_count); NULL if the scene has none */
 
     int element_count;     /* shells in deck order, rigid ones included; bare segments are not counted */
@@ -120,7 +125,7 @@ typedef struct Model {
     ElementGroup *groups;
     size_t history_size, corner_size; /* doubles */
     int32_t *corner_start; /* CSR: corners of node n are corner_list[corner_start[n] .. corner_start[n + 1]) */
-    int32_t *corner_list;  /* offset of the corner's first component in the corner buffer; the next LANES further */
+    CornerPlace *corner_list;
     int32_t *corner_set;   /* pressure set of each corner, for nodes beyond free_count (parallel to corner_list) */
 
     double origin[3];      /* point about which volumes are summed [L] */

@@ -21,8 +21,8 @@ static size_t lay_out(const Model *model, State *state)
     unsigned char *base = state->buffer;
     state->clock = take(base, &used, sizeof *state->clock);
     state->energy = take(base, &used, sizeof *state->energy);
-    state->x = take(base, &used, 3 * nodes * sizeof *state->x);
-    state->v = take(base, &used, 3 * nodes * sizeof *state->v);
+    state->x = take(base, &used, (3 * nodes + 1) * sizeof *state->x);
+    state->v = take(base, &used, (3 * nodes + 1) * sizeof *state->v);
     state->history = take(base, &used, model->history_size * sizeof *state->history);
     state->gas = take(base, &used, (size_t)model->airbag_count * sizeof *state->gas);
     state->part_energy = take(base, &used, (size_t)model->part_count * sizeof *state->part_energy);

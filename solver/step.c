@@ -76,6 +76,7 @@ static int allocate(Workspace *w)
     w->set_volume = memory_alloc(sets, sizeof(double));
     w->set_area = memory_alloc(sets, sizeof(double));
     w->source_pressure = memory_alloc(bags + (size_t)m->segment_load_count, sizeof(double));
+    classes++; /* vector loads reach one value further */
     w->class_gravity = memory_alloc(classes, sizeof(double));
     w->class_damping = memory_alloc(classes, sizeof(double));
     w->class_velocity = memory_alloc(classes, sizeof(double));

@@ -5,27 +5,25 @@
  * a = M^-1 (f + dp s), dp = -b dt^2 k (s.M^-1 f) / (1 + b dt^2 k s.M^-1 s). At rest dp = 0. */
 #include "solver/workspace.h"
 
-enum { LANES = BILLOW_LANES };
-
 /* Adds one node's share to every bag that presses on it. */
 static void add_node(const Workspace *w, int node, GasPass *bags)
 {
     const Model *m = w->model;
     double f[3] = {0}, inverse = m->inverse_mass[node];
     for (int32_t k = m->corner_start[node]; k < m->corner_start[node + 1]; k++) {
-        const double *c = w->corner + m->corner_list[k];
+        const double *force = w->corner + m->corner_list[k].force, *share = w->corner + m->corner_list[k].share;
         int set = m->corner_set[k];
         double pressure = set < 0 ? 0.0 : w->bag_pressure[set] + w->load_pressure[set];
-        for (int i = 0; i < 3; i++) f[i] += c[i * LANES] + pressure * c[(3 + i) * LANES];
+        for (int i = 0; i < 3; i++) f[i] += force[i] + pressure * share[i];
     }
     for (int b = 0; b < m->airbag_count; b++) {
         double s[3] = {0};
         for (int32_t k = m->corner_start[node]; k < m->corner_start[node + 1]; k++) {
             if (m->corner_set[k] < 0) continue;
             const PressureSet *set = &m->pressure_sets[m->corner_set[k]];
-            const double *c = w->corner + m->corner_list[k];
+            const double *share = w->corner + m->corner_list[k].share;
             for (int j = 0; j < set->count; j++)
-                for (int i = 0; set->source[j] == b && i < 3; i++) s[i] += set->sign[j] * c[(3 + i) * LANES];
+                for (int i = 0; set->source[j] == b && i < 3; i++) s[i] += set->sign[j] * share[i];
         }
         bags[b].compliance += (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) * inverse;
         bags[b].opening += (s[0] * f[0] + s[1] * f[1] + s[2] * f[2]) * inverse;

@@ -4,8 +4,6 @@
 
 #include "solver/workspace.h"
 
-enum { LANES = BILLOW_LANES };
-
 /* Forces of the special nodes; stress, bag and load pressure on the velocities before the step for the ledger. */
 static void gather_special(Workspace *w, NodeSums *t, bool after)
 {
@@ -16,12 +14,12 @@ static void gather_special(Workspace *w, NodeSums *t, bool after)
         const double *vn = v + 3 * (ptrdiff_t)node;
         double stress[3] = {0}, bag_force[3] = {0}, load_force[3] = {0}, area[3] = {0};
         for (int32_t k = m->corner_start[node]; k < m->corner_start[node + 1]; k++) {
-            const double *c = w->corner + m->corner_list[k];
+            const double *force = w->corner + m->corner_list[k].force, *share = w->corner + m->corner_list[k].share;
             int set = m->corner_set[k];
             double bag = set < 0 ? 0.0 : w->bag_pressure[set], load = set < 0 ? 0.0 : w->load_pressure[set];
             for (int i = 0; i < 3; i++) {
-                double s = c[(3 + i) * LANES];
-                stress[i] += c[i * LANES];
+                double s = share[i];
+                stress[i] += force[i];
                 bag_force[i] += bag * s;
                 load_force[i] += load * s;
                 area[i] += set < 0 ? 0.0 : s;
@@ -46,7 +44,7 @@ static void push_rims(Workspace *w)
 {
     const Model *m = w->model;
     for (int i = 0; m->caps_push_rim && i < m->airbag_count; i++)
-        surface_cap_gradient(&m->airbags[i].closure, w->state->x, m->origin, w->state->gas[i].applied, w->force);
+        surface_cap_force(&m->airbags[i].closure, w->state->x, w->state->gas[i].applied, w->force);
 }
 
 /* Newton's law for the special nodes with their class's gravity and damping; rigid nodes are moved by their bodies. */

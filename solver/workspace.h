@@ -73,6 +73,14 @@ typedef struct Workspace {
     CyclePlan plan;
 } Workspace;
 
+/* Loops over nodes [first, end) of the lean range, one table per instruction set. */
+typedef void NodeLoop(Workspace *w, int first, int end, NodeSums *sums);
+typedef struct NodeKernels {
+    NodeLoop *lean;    /* pressure and stress only */
+    NodeLoop *general; /* with body classes and stagnation pressure */
+} NodeKernels;
+extern const NodeKernels node_kernels_v2, node_kernels_v3, node_kernels_v4;
+
 /* Phases of the cycle. */
 void step_elements(Workspace *w, int thread, int threads);       /* all threads */
 void step_gas(Workspace *w);                                      /* thread 0: sums, gas, pressures, next step */

@@ -56,15 +56,18 @@ static void flat_and_empty(void **state)
             high = fmax(high, runs[i].samples[k].step);
         }
         verify_between("D1 least step over the largest, 100 cycles", low / high, 0.5, 1);
-        verify_balance(&runs[i], 1e-2);
+        verify_balance(&runs[i], 2e-2);
         assert_true(isfinite(last->pressure) && last->volume > 0.01);
         for (size_t k = 0; k < runs[i].count; k++) assert_true(isfinite(runs[i].samples[k].kinetic));
     }
-    double full = runs[0].samples[runs[0].count - 1].volume, worst = 0;
+    double full = runs[0].samples[runs[0].count - 1].volume, worst = 0, window = 5e-4;
     for (size_t k = 0; k < runs[0].count; k++) {
         const VerifySample *s = &runs[0].samples[k];
         if (s->volume < 0.01 * full) continue;
-        for (int i = 1; i < 3; i++) worst = fmax(worst, fabs(verify_at(&runs[i], s->time, PRESSURE) / s->pressure - 1));
+        if (s->time > runs[0].samples[runs[0].count - 1].time - window) break;
+        double mean = verify_mean(&runs[0], s->time - window, s->time + window, PRESSURE); /* without its ringing */
+        for (int i = 1; i < 3; i++)
+            worst = fmax(worst, fabs(verify_mean(&runs[i], s->time - window, s->time + window, PRESSURE) / mean - 1));
     }
     verify_near("D1 pressure and guard volume", worst, 0, 0.01);
     for (int i = 0; i < 3; i++) verify_free(&runs[i]);
@@ -137,8 +140,8 @@ static void run_slivers(ScenePattern pattern, double stretch, double tssfac, int
     double from = stretch > 0 ? 0.06 : 0, late = run.samples[run.count - 1].time;
     double scale = 0.5 * 800 * 3.5e-4 * 0.04 * 2e8 / (800 * 0.91); /* m c^2 / 2 of the strip */
     print_message("    %ld cycles, %.2g s of model time, %.1f s\n", (long)run.cycles, late, run.times.total);
-    verify_between("D3 kinetic energy over m c^2 / 2", verify_largest(&run, from, offsetof(VerifySample, kinetic)) / scale,
-                   0, stretch > 0 ? 1e-16 : 1e-20);
+    verify_between("D3 kinetic energy over m c^2 / 2",
+                   verify_largest(&run, from, offsetof(VerifySample, kinetic)) / scale, 0, stretch > 0 ? 1e-16 : 1e-20);
     assert_true(late > from);
     verify_free(&run);
 }
@@ -330,13 +333,13 @@ static void overpressure(void **state)
 {
     (void)state;
     Scene scene = {0};
-    begin_skin(&scene, 1500);
+    begin_skin(&scene, 2500);
     scene_add_sphere(&scene.mesh, 1, SCENE_DIAGONAL, 6, 0.3);
     scene_end(&scene.deck, &scene.mesh);
     VerifyRun run;
     verify_scene(&run, &scene, &(VerifyOptions){.every = 1});
     const VerifySample *last = &run.samples[run.count - 1];
-    verify_between("D11 largest pressure [Pa]", verify_largest(&run, 0, PRESSURE), 7e5, 1e8);
+    verify_between("D11 largest pressure [Pa]", verify_largest(&run, 0, PRESSURE), 1.0e6, 1e8);
     verify_between("D11 step, last over first", last->element_step / run.samples[0].element_step, 0.01, 0.99);
     verify_balance(&run, 1e-2);
     verify_free(&run);
@@ -348,7 +351,7 @@ static void overpressure(void **state)
     scene_print(&scene.deck, "$ a second bag on the same skin\n");
     scene_write_simple_airbag(&scene.deck, 1, &hot);
     scene_end(&scene.deck, &scene.mesh);
-    build_only(&scene, &run);
+    assert_int_equal(build_only(&scene, &run), 0);
     assert_true(verify_message(&run.diagnostics, SEVERITY_WARNING, "1055"));
     verify_free(&run);
 }

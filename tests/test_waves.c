@@ -167,9 +167,9 @@ typedef struct StripEnergy {
     double x[STRIP_VALUES], f[STRIP_VALUES];
 } StripEnergy;
 
-/* The energies that central differences keep to rounding for any force law: m v_{n-1/2} . v_{n+1/2} / 2, and the work of
- * the stress forces by the trapezoidal rule. Those of the ledger, full-step velocities and stress times strain, differ by
- * m (a dt)^2 / 8 at the front and by a share of the strain's size. */
+/* The energies that central differences keep to rounding for any force law: m v_{n-1/2} . v_{n+1/2} / 2, and the work
+ * of the stress forces by the trapezoidal rule. Those of the ledger, full-step velocities and stress times strain,
+ * differ by m (a dt)^2 / 8 at the front and by a share of the strain's size. */
 static void record_strip_energy(void *user, const Model *model, const State *state, const StepView *view)
 {
     StripEnergy *energy = user;
@@ -178,17 +178,18 @@ static void record_strip_energy(void *user, const Model *model, const State *sta
     for (int i = 0; i < 3 * model->node_count && i < STRIP_VALUES; i++) {
         double v = view->v[i], change = half * view->a[i];
         energy->kinetic += 0.5 * model->mass[i / 3] * (v + change) * (v - change);
-        if (state->clock->cycle > 0) energy->internal -= 0.5 * (energy->f[i] + view->f[i]) * (view->x[i] - energy->x[i]);
+        if (state->clock->cycle > 0)
+            energy->internal -= 0.5 * (energy->f[i] + view->f[i]) * (view->x[i] - energy->x[i]);
         energy->x[i] = view->x[i];
         energy->f[i] = view->f[i];
     }
 }
 
-/* At 1/1000 of the collection's end velocity, so that finite strain has no part in it. */
+/* At 1/100 of the collection's end velocity, so that finite strain has no part in it. */
 static void check_strip_wave(ScenePattern pattern, double nu, bool sides, double speed, double courant, double stress)
 {
     const int cells = 150;
-    const double length = 1.5, h = length / cells, time = 1 / speed, velocity = 1e-3;
+    const double length = 1.5, h = length / cells, time = 1 / speed, velocity = 1e-2;
     Scene scene = {0};
     SceneText *deck = &scene.deck;
     deck->exact = true;
@@ -229,7 +230,7 @@ static void check_strip_wave(ScenePattern pattern, double nu, bool sides, double
     verify_near("A8 front [m]", front + 0.5 * h, speed * last->time, h);
     verify_close("A8 plateau [Pa]", plateau / count, stress * velocity, 5e-3);
     verify_close("A8 energy balance", energy.kinetic + energy.internal, last->external, 1e-10);
-    verify_close("A8 internal energy of the ledger", last->internal, energy.internal, 1e-5);
+    verify_close("A8 internal energy of the ledger", last->internal, energy.internal, 1e-4);
     verify_free(&run);
     scene_mesh_free(&mesh);
 }
