@@ -35,16 +35,25 @@ ALWAYS_INLINE void write_records(int size, Lane *restrict from, double *restrict
         for (int k = 0; k < size; k++) record[size * l + k] = from[k][l];
 }
 
-static double sum_lanes(const double *lane)
+/* Eight partial sums, then a tree: the same order in every instruction set. */
+ALWAYS_INLINE double sum_lanes(const double *restrict lane)
 {
-    double sum = 0.0;
-    for (int l = 0; l < LANES; l++) sum += lane[l];
-    return sum;
+    double part[8] = {0};
+    for (int i = 0; i < LANES; i += 8)
+#pragma omp simd
+        for (int j = 0; j < 8; j++) part[j] += lane[i + j];
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-static double largest_lane(const double *lane, double largest)
+/* The largest of the lanes and a number; not a number wins. */
+ALWAYS_INLINE double largest_lane(const double *restrict lane, double largest)
 {
-    for (int l = 0; l < LANES; l++) largest = lane[l] > largest || lane[l] != lane[l] ? lane[l] : largest;
+    double part[8];
+    for (int j = 0; j < 8; j++) part[j] = lane[j];
+    for (int i = 8; i < LANES; i += 8)
+#pragma omp simd
+        for (int j = 0; j < 8; j++) part[j] = part[j] >= lane[i + j] ? part[j] : lane[i + j];
+    for (int j = 0; j < 8; j++) largest = part[j] > largest || part[j] != part[j] ? part[j] : largest;
     return largest;
 }
 

@@ -44,7 +44,7 @@ void scene_driver_bag(Scene *scene, int n)
                           .aopt = 2,
                           .vector = {1, 0, 0}};
     write_bag_parts(deck, 3.5e-4, &fabric, true);
-    scene_print(deck, "$ nitrogen from the inflator: 0.045 kg in 50 ms at 700 K\n");
+    scene_print(deck, "$ nitrogen from the inflator: 0.043 kg in 50 ms at 700 K\n");
     scene_write_curve(deck, 1, 5, (const double[]){0, 0, 0.010, 1.5, 0.025, 1.2, 0.050, 0, 0.080, 0});
     SceneGas gas = {.gamma = 1.4,
                     .molar_mass = 0.0280134,
@@ -85,7 +85,7 @@ void scene_cushion(Scene *scene, int n)
                           .prab = 0.4,
                           .damp = 0.05};
     write_bag_parts(deck, 4e-4, &fabric, false);
-    scene_print(deck, "$ cold air: 0.056 kg in 60 ms at 296 K\n");
+    scene_print(deck, "$ cold air: 0.055 kg in 60 ms at 296 K\n");
     scene_write_curve(deck, 1, 5, (const double[]){0, 0, 0.010, 1.1, 0.050, 1.1, 0.060, 0, 0.100, 0});
     SceneGas gas = scene_air(101325, 296.15);
     gas.inflow_temperature = 296.15;
@@ -138,8 +138,8 @@ void scene_landing_pad(Scene *scene, int n)
                           .lratio = 0.1,
                           .damp = 0.1};
     write_bag_parts(deck, 4e-4, &fabric, true);
-    scene_print(deck, "$ warm gas through the nozzle: 1.69 kg in 140 ms at 500 K\n");
-    scene_write_curve(deck, 1, 5, (const double[]){0, 0, 0.020, 13.5, 0.120, 13.5, 0.140, 0, 0.150, 0});
+    scene_print(deck, "$ warm gas through the nozzle: 1.14 kg in 140 ms at 500 K\n");
+    scene_write_curve(deck, 1, 5, (const double[]){0, 0, 0.020, 9.5, 0.120, 9.5, 0.140, 0, 0.150, 0});
     SceneGas gas = scene_air(101325, 296.15);
     gas.inflow_temperature = 500;
     gas.inflow_curve = 1;

@@ -29,8 +29,8 @@ void scene_write_simple_airbag(SceneText *deck, int part_set, const SceneGas *ga
     scene_print(deck, "$      sid    sidtyp      rbid      vsca      psca      vini       mwd      spsf\n");
     SCENE_CARD(deck, part_set, 1, 0, 1, 1, gas->vini, 0, 0);
     scene_print(deck, "$       cv        cp         t      lcid        mu      area        pe        ro\n");
-    SCENE_CARD(deck, heat.cv, heat.cp, heat.inflow, gas->inflow_curve, gas->vent_coefficient,
-               gas->vent_area, gas->pressure, heat.density);
+    SCENE_CARD(deck, heat.cv, heat.cp, heat.inflow, gas->inflow_curve, gas->vent_coefficient, gas->vent_area,
+               gas->pressure, heat.density);
     scene_print(deck, "$      lou\n");
     SCENE_CARD(deck, 0);
 }

@@ -34,6 +34,7 @@ static int common_fields(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     gas->ambient_density = bag->ro;
     gas->ambient_temperature = bag->text;
     gas->gravity_conversion = 1.0;
+    if (gas->temperature_dependent) gas->initial_temperature = bag->text;
     if (!gas->temperature_dependent && !(gas->cp > gas->cv && gas->cv > 0.0))
         return input_error(b, bag->card3, "CP must exceed CV, both positive (or CV = 0 for capacities that depend on the "
                                           "temperature)");
@@ -75,7 +76,7 @@ static int wang_nefske_gas(Builder *b, const AirbagDefinition *bag, GasModel *ga
     else
         gas->mass_flow_curve = flow;
     gas->tank_volume = bag->tvol;
-    gas->initial_temperature = bag->iabt;
+    if (bag->iabt > 0.0) gas->initial_temperature = bag->iabt;
     gas->gravity_conversion = bag->gc != 0.0 ? bag->gc : 1.0;
     gas->vent_coefficient = bag->c23;
     gas->vent_area = bag->a23;
@@ -129,6 +130,11 @@ static int build_airbag(Builder *b, int number)
                         "airbag %d cannot start from its initial volume %g: %s", bag->id, closure->volume, why);
         return -1;
     }
+    if (start.temperature < 200.0 || start.temperature > 400.0)
+        diagnostics_add(b->diagnostics, SEVERITY_WARNING, definition->card1, "*AIRBAG",
+                        "airbag %d starts at %.4g K: PE, RO and the heat capacities imply it; check their units if that is "
+                        "not meant",
+                        bag->id, start.temperature);
     return 0;
 }
 

@@ -57,7 +57,7 @@ static int fabric_axis(Builder *b, const MaterialDefinition *m, PartRecord *part
 }
 
 /* MAT_FABRIC: EB, GAB default to the isotropic law of EA, PRBA as in LS-DYNA. */
-static int fabric_law(Builder *b, const MaterialDefinition *m, PartRecord *part)
+static int fabric_law(Builder *b, const MaterialDefinition *m, bool first_use, PartRecord *part)
 {
     const FabricCard *f = &m->fabric;
     Diagnostics *g = b->diagnostics;
@@ -70,7 +70,7 @@ static int fabric_law(Builder *b, const MaterialDefinition *m, PartRecord *part)
     double gab = f->gab > 0.0 ? f->gab : 0.5 * f->ea / (1.0 + f->prba);
     double mismatch = fabs(f->prba * f->ea - prab * eb);
     /* The manual's symmetry: PRBA/EB = PRAB/EA, thus PRBA EA = PRAB EB. */
-    if (mismatch > 1e-6 * (fabs(f->prba * f->ea) + fabs(prab * eb)))
+    if (first_use && mismatch > 1e-6 * (fabs(f->prba * f->ea) + fabs(prab * eb)))
         diagnostics_add(g, SEVERITY_WARNING, m->source, "*MAT_FABRIC",
                         "PRBA = %g and PRAB = %g do not fit EA = %g and EB = %g (PRBA EA must equal PRAB EB); both are "
                         "used as given, their coupling stiffness is made symmetric by the mean",
@@ -89,6 +89,14 @@ static int fabric_law(Builder *b, const MaterialDefinition *m, PartRecord *part)
     part->fabric.damping = f->damp > 0.0 ? f->damp : 0.0;
     part->law = f->form == 2 ? LAW_GREEN : LAW_LOGARITHMIC;
     return fabric_axis(b, m, part);
+}
+
+/* Is this the first part with its material? Messages about the material come once. */
+static bool is_first_use(const Builder *b, const PartDefinition *definition)
+{
+    const PartDefinition *part = b->definitions->parts.items;
+    while (part->material != definition->material) part++;
+    return part == definition;
 }
 
 static double hourglass_modulus(const Builder *b, const PartDefinition *definition)
@@ -114,7 +122,7 @@ static int part_law(Builder *b, const PartDefinition *definition, const Material
     }
     switch (m->kind) {
     case MATERIAL_FABRIC:
-        if (fabric_law(b, m, part)) return -1;
+        if (fabric_law(b, m, is_first_use(b, definition), part)) return -1;
         break;
     case MATERIAL_ELASTIC:
         if (section->elform != 5 && section->elform != 9) {

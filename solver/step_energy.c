@@ -27,15 +27,16 @@ void step_close_energies(Workspace *w)
     Energies *e = w->state->energy;
     NodeSums t = sum_nodes(w);
     double before = 0.5 * w->plan.dt_before, after = 0.5 * w->plan.dt_next;
+    double passed = before / (before + after); /* share of this cycle's mean step that lies before t_n */
     e->airbag_half += before * t.bag_before;
-    e->external_half += before * t.load_before + 0.5 * t.reaction;
+    e->external_half += before * t.load_before + passed * t.reaction;
     e->airbag_work = e->airbag_half;
     e->external_work = e->external_half;
-    e->mass_damping += 0.5 * t.damping;
+    e->mass_damping += passed * t.damping;
     e->damping = e->mass_damping + e->material_damping;
     e->airbag_half += after * t.bag_after;
-    e->external_half += after * t.load_after + 0.5 * t.reaction;
-    e->mass_damping += 0.5 * t.damping;
+    e->external_half += after * t.load_after + (1.0 - passed) * t.reaction;
+    e->mass_damping += (1.0 - passed) * t.damping;
     e->kinetic = t.kinetic;
     e->internal = e->hourglass = 0.0;
     for (int p = 0; p < m->part_count; p++) {

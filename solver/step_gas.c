@@ -139,8 +139,8 @@ static void set_classes(Workspace *w)
     }
 }
 
-/* A step that resolves the gas when no element asks for one: its own time scale, and a hundredth of the period scale of
- * walls that move on it. */
+/* A step that resolves the gas when no element asks for one: its own time scale, and a thousandth of the period scale
+ * of walls that move on it. */
 static double gas_step(const Workspace *w, double gas_rate)
 {
     const Model *m = w->model;
@@ -149,7 +149,7 @@ static double gas_step(const Workspace *w, double gas_rate)
         double own = gas_time_scale(&m->airbags[i].gas, m->curves, &w->state->gas[i], w->plan.time);
         step = own < step ? own : step;
     }
-    if (gas_rate > 0.0 && 0.01 / sqrt(gas_rate) < step) step = 0.01 / sqrt(gas_rate);
+    if (gas_rate > 0.0 && 0.001 / sqrt(gas_rate) < step) step = 0.001 / sqrt(gas_rate);
     double intervals[] = {m->output.states, m->output.glstat, m->output.abstat, m->output.nodout};
     for (int i = 0; i < 4; i++)
         if (intervals[i] > 0.0 && intervals[i] / 10.0 < step) step = intervals[i] / 10.0;
