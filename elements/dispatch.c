@@ -22,9 +22,12 @@ ElementKernel *kernels_for(const KernelTable *table, const ElementGroup *group)
 {
     if (group->law == LAW_SURFACE) return table->surface;
     switch (group->kind) {
-    case ELEMENT_TRIANGLE: return table->triangle;
-    case ELEMENT_QUAD_FULL: return table->quad_full;
-    case ELEMENT_QUAD_ONE: return table->quad_one;
+    case ELEMENT_TRIANGLE:
+        return table->triangle;
+    case ELEMENT_QUAD_FULL:
+        return table->quad_full;
+    case ELEMENT_QUAD_ONE:
+        return table->quad_one;
     }
     return table->surface;
 }

@@ -8,7 +8,10 @@
 #include "elements/kernels.h"
 #include "solver/elementary.h"
 
-static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 static void cross(const double *a, const double *b, double *c)
 {
@@ -17,7 +20,10 @@ static void cross(const double *a, const double *b, double *c)
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-static int point_count(ElementKind kind) { return kind == ELEMENT_QUAD_FULL ? 4 : 1; }
+static int point_count(ElementKind kind)
+{
+    return kind == ELEMENT_QUAD_FULL ? 4 : 1;
+}
 
 int geometry_size(ElementKind kind, LawKind law)
 {

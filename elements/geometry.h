@@ -10,11 +10,12 @@
 /* How the fibre direction 1 lies in an element (AOPT, BETA). */
 typedef struct FibreAxis {
     enum { FIBRE_EDGE, FIBRE_VECTOR, FIBRE_CROSS } kind; /* edge n1-n2; vector projected; vector x normal */
-    double vector[3]; /* global, for the last two */
-    double angle;     /* added about the normal [rad] */
+    double vector[3];                                    /* global, for the last two */
+    double angle;                                        /* added about the normal [rad] */
 } FibreAxis;
 
-/* Input for one element of the given kind: reference corners (corner_count x 3), thickness, mass carried by the element. */
+/* Input for one element of the given kind: reference corners (corner_count x 3), thickness, mass carried by the
+ * element. */
 typedef struct ElementInput {
     ElementKind kind;
     const double *x;
@@ -34,8 +35,8 @@ GeometryStatus geometry_fill(const ElementInput *input, double sign, double *lan
 /* Area of an element: sum of its points' areas; zero for degenerate ones. x: corners (corner_count x 3). */
 double geometry_area(int corner_count, const double *x);
 
-/* Largest squared frequency of the free element with its lumped mass, membrane stiffness in the reference state (eq. E20):
- * exact for triangles and quads. */
+/* Largest squared frequency of the free element with its lumped mass, membrane stiffness in the reference state (eq.
+ * E20): exact for triangles and quads. */
 double geometry_rate(const ElementInput *input);
 
 /* The largest eigenvalue of a symmetric n x n matrix (row-major, destroyed), n <= 12, by Jacobi rotations. */

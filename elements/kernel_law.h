@@ -27,8 +27,14 @@ typedef struct GreenResult {
 /* Squared stretches are kept above this: an element folded to less than 1e-6 of its width pushes no harder. */
 #define BILLOW_LEAST_SQUARED_STRETCH 1e-12
 
-ALWAYS_INLINE double larger(double a, double b) { return a > b ? a : b; }
-ALWAYS_INLINE double smaller(double a, double b) { return a < b ? a : b; }
+ALWAYS_INLINE double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+ALWAYS_INLINE double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
 
 #define BILLOW_LOG2 0.6931471805599453
 
@@ -62,7 +68,10 @@ ALWAYS_INLINE Tensor2 apply_moduli(const PlaneModuli *d, Tensor2 e)
     return s;
 }
 
-ALWAYS_INLINE double contract(Tensor2 a, Tensor2 b) { return a.a11 * b.a11 + a.a22 * b.a22 + 2.0 * a.a12 * b.a12; }
+ALWAYS_INLINE double contract(Tensor2 a, Tensor2 b)
+{
+    return a.a11 * b.a11 + a.a22 * b.a22 + 2.0 * a.a12 * b.a12;
+}
 
 /* Removes negative principal values: the projection of t onto the tensile cone (eq. F7). *major receives the largest
  * principal value before. */
@@ -81,7 +90,8 @@ ALWAYS_INLINE Tensor2 remove_compression(Tensor2 t, double *major)
     return kept;
 }
 
-/* Plane-stress compliance of the wrinkling law: a(theta) = n.n:C:n.n = b0 + b1 cos 2theta + b2 cos^2 2theta (eq. F9). */
+/* Plane-stress compliance of the wrinkling law: a(theta) = n.n:C:n.n = b0 + b1 cos 2theta + b2 cos^2 2theta (eq. F9).
+ */
 typedef struct Compliance {
     double b0, b1, b2;
 } Compliance;
@@ -96,8 +106,8 @@ ALWAYS_INLINE Compliance make_compliance(const PlaneModuli *d)
 
 /* Tension field (eq. F8 to F11): the stress that minimises the energy over all wrinkle strains. Taut where D : e has no
  * negative principal value, slack where e has no positive one, else uniaxial along the direction that maximises
- * e(theta)^2 / a(theta); that direction by a fixed number of safeguarded Newton steps from the principal direction of the
- * strain, so that every lane does the same work. */
+ * e(theta)^2 / a(theta); that direction by a fixed number of safeguarded Newton steps from the principal direction of
+ * the strain, so that every lane does the same work. */
 ALWAYS_INLINE Tensor2 relax_compression(const PlaneModuli *d, const Compliance *b, Tensor2 e, double *major)
 {
     enum { STEPS = 7 };
@@ -215,8 +225,8 @@ ALWAYS_INLINE Tensor2 logarithmic_strain(double cosine, double sine, double c1, 
     return e;
 }
 
-/* Third stage: Cauchy stress t = D : ln U with the tension field and the liner (eq. F4 to F7). *major: largest principal
- * stress; *slack: 1 where the fabric carries nothing, else 0. */
+/* Third stage: Cauchy stress t = D : ln U with the tension field and the liner (eq. F4 to F7). *major: largest
+ * principal stress; *slack: 1 where the fabric carries nothing, else 0. */
 ALWAYS_INLINE Tensor2 logarithmic_stress(const FabricLaw *law, bool field, bool liner, Tensor2 e, double *major,
                                          double *slack)
 {

@@ -1,7 +1,7 @@
 /* Stages of the element kernels over one block: metric -> stress in natural directions, forces -> corner records.
  *
- * Every stage is a vector loop of its own over the block's lanes: the roots and divisions of one lane wait for each other,
- * short loops let the processor work on several lanes' at a time. Included by elements/kernels.c alone. */
+ * Every stage is a vector loop of its own over the block's lanes: the roots and divisions of one lane wait for each
+ * other, short loops let the processor work on several lanes' at a time. Included by elements/kernels.c alone. */
 #ifndef BILLOW_KERNEL_STAGES_H
 #define BILLOW_KERNEL_STAGES_H
 
@@ -98,8 +98,8 @@ ALWAYS_INLINE void stage_green(int mode, const LawInput *in, const double *restr
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
         Tensor2 c = {p->c11[l], p->c22[l], p->c12[l]};
-        GreenResult r = green_stress(&in->law, &in->compliance, mode & MODE_TENSION_FIELD, mode & MODE_LINER,
-                                     green_strain(c));
+        GreenResult r =
+            green_stress(&in->law, &in->compliance, mode & MODE_TENSION_FIELD, mode & MODE_LINER, green_strain(c));
         p->s11[l] = r.stress.a11;
         p->s22[l] = r.stress.a22;
         p->s12[l] = r.stress.a12;
@@ -110,8 +110,8 @@ ALWAYS_INLINE void stage_green(int mode, const LawInput *in, const double *restr
 }
 
 /* Damping and the stress-work ledger: dW = (S_n + S_n+1)/2 : (E_n+1 - E_n) (eq. E14, E16). */
-ALWAYS_INLINE void stage_history(int mode, const LawInput *in, const double *restrict point, const double *restrict tail,
-                                 double *restrict history, PointLanes *restrict p)
+ALWAYS_INLINE void stage_history(int mode, const LawInput *in, const double *restrict point,
+                                 const double *restrict tail, double *restrict history, PointLanes *restrict p)
 {
     if (in->law.damping > 0.0) {
 #pragma omp simd

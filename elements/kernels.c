@@ -1,7 +1,8 @@
-/* Element kernels for one instruction set: this file is compiled once per set, with BILLOW_KERNEL_TABLE naming its table.
+/* Element kernels for one instruction set: this file is compiled once per set, with BILLOW_KERNEL_TABLE naming its
+ * table.
  *
- * A kernel walks over whole blocks of BILLOW_LANES elements: gather the corners, metric, stress (kernel_stages.h), corner
- * records. Sums run over the lanes in order. Equations: docs/theory.md, Elements. */
+ * A kernel walks over whole blocks of BILLOW_LANES elements: gather the corners, metric, stress (kernel_stages.h),
+ * corner records. Sums run over the lanes in order. Equations: docs/theory.md, Elements. */
 #include "elements/kernels.h"
 
 #include "elements/kernel_stages.h"
@@ -79,9 +80,8 @@ ALWAYS_INLINE void sum_block(const KernelInput *input, int block, const double *
 static LawInput make_law_input(const KernelInput *input)
 {
     const ElementGroup *group = input->group;
-    LawInput in = {.law = group->material,
-                   .inverse_step = input->inverse_step,
-                   .count_work = input->restart_ledger ? 0.0 : 1.0};
+    LawInput in = {
+        .law = group->material, .inverse_step = input->inverse_step, .count_work = input->restart_ledger ? 0.0 : 1.0};
     if (group->law == LAW_GREEN && in.law.no_compression) in.compliance = make_compliance(&in.law.fabric);
     return in;
 }
@@ -98,18 +98,42 @@ static int kernel_mode(const ElementGroup *group)
 /* Calls WORK with the mode as a constant. A logarithmic law always has a history. */
 #define FOR_MODE(mode, WORK)                                                                                           \
     switch (mode) {                                                                                                    \
-    case 0: WORK(0); break;                                                                                            \
-    case 2: WORK(2); break;                                                                                            \
-    case 4: WORK(4); break;                                                                                            \
-    case 6: WORK(6); break;                                                                                            \
-    case 8: WORK(8); break;                                                                                            \
-    case 10: WORK(10); break;                                                                                          \
-    case 12: WORK(12); break;                                                                                          \
-    case 14: WORK(14); break;                                                                                          \
-    case 9: WORK(9); break;                                                                                            \
-    case 11: WORK(11); break;                                                                                          \
-    case 13: WORK(13); break;                                                                                          \
-    default: WORK(15); break;                                                                                          \
+    case 0:                                                                                                            \
+        WORK(0);                                                                                                       \
+        break;                                                                                                         \
+    case 2:                                                                                                            \
+        WORK(2);                                                                                                       \
+        break;                                                                                                         \
+    case 4:                                                                                                            \
+        WORK(4);                                                                                                       \
+        break;                                                                                                         \
+    case 6:                                                                                                            \
+        WORK(6);                                                                                                       \
+        break;                                                                                                         \
+    case 8:                                                                                                            \
+        WORK(8);                                                                                                       \
+        break;                                                                                                         \
+    case 10:                                                                                                           \
+        WORK(10);                                                                                                      \
+        break;                                                                                                         \
+    case 12:                                                                                                           \
+        WORK(12);                                                                                                      \
+        break;                                                                                                         \
+    case 14:                                                                                                           \
+        WORK(14);                                                                                                      \
+        break;                                                                                                         \
+    case 9:                                                                                                            \
+        WORK(9);                                                                                                       \
+        break;                                                                                                         \
+    case 11:                                                                                                           \
+        WORK(11);                                                                                                      \
+        break;                                                                                                         \
+    case 13:                                                                                                           \
+        WORK(13);                                                                                                      \
+        break;                                                                                                         \
+    default:                                                                                                           \
+        WORK(15);                                                                                                      \
+        break;                                                                                                         \
     }
 
 /* ---- triangles ---- */
@@ -140,7 +164,8 @@ ALWAYS_INLINE void triangle_area(Corners *restrict c, Lane *restrict e, const do
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
         double sixth = (1.0 / 6.0) * sign[l];
-        double s0 = sixth * (e[1][l] * e[5][l] - e[2][l] * e[4][l]), s1 = sixth * (e[2][l] * e[3][l] - e[0][l] * e[5][l]),
+        double s0 = sixth * (e[1][l] * e[5][l] - e[2][l] * e[4][l]),
+               s1 = sixth * (e[2][l] * e[3][l] - e[0][l] * e[5][l]),
                s2 = sixth * (e[0][l] * e[4][l] - e[1][l] * e[3][l]);
         share[0][l] = s0;
         share[1][l] = s1;
@@ -183,7 +208,8 @@ ALWAYS_INLINE void triangle_blocks(int mode, const KernelInput *input, ChunkSums
         natural_stress(mode, &in, point, tail, history, &p);
         triangle_forces(e, &p, record);
         triangle_area(&c, e, tail + GEOMETRY_SIGN * LANES, input->origin, record + 9, under, area);
-        write_records(TRIANGLE_RECORD, record, input->corner + group->corner_offset + (size_t)block * TRIANGLE_RECORD * LANES);
+        write_records(TRIANGLE_RECORD, record,
+                      input->corner + group->corner_offset + (size_t)block * TRIANGLE_RECORD * LANES);
         sum_block(input, block, under, area, &p, sums);
     }
 }
@@ -236,8 +262,7 @@ ALWAYS_INLINE void quad_products(Gradients *restrict g)
 }
 
 /* Corner forces from the forces conjugate to a, b and h (eq. E7). */
-ALWAYS_INLINE void quad_forces(Lane *restrict qa, Lane *restrict qb, Lane *restrict qh,
-                               Lane *restrict f)
+ALWAYS_INLINE void quad_forces(Lane *restrict qa, Lane *restrict qb, Lane *restrict qh, Lane *restrict f)
 {
     for (int k = 0; k < 3; k++) {
 #pragma omp simd
@@ -275,8 +300,8 @@ ALWAYS_INLINE void quad_area(Gradients *restrict g, const double *restrict sign,
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
         double n0 = n[0][l], n1 = n[1][l], n2 = n[2][l];
-        under[l] = (4.0 / 3.0) *
-                   ((g->centre[0][l] - o0) * n0 + (g->centre[1][l] - o1) * n1 + (g->centre[2][l] - o2) * n2);
+        under[l] =
+            (4.0 / 3.0) * ((g->centre[0][l] - o0) * n0 + (g->centre[1][l] - o1) * n1 + (g->centre[2][l] - o2) * n2);
         area[l] = 4.0 * sqrt(n0 * n0 + n1 * n1 + n2 * n2);
     }
 }
@@ -354,8 +379,7 @@ ALWAYS_INLINE void quad_full_blocks(int mode, const KernelInput *input, ChunkSum
     }
 }
 
-static void kernel_quad_full(const KernelInput *input, ChunkSums *sums)
-{
+static void kernel_quad_full(const KernelInput *input, ChunkSums *sums){
 #define WORK(mode) quad_full_blocks(mode, input, sums)
     FOR_MODE(kernel_mode(input->group), WORK)
 #undef WORK

@@ -8,20 +8,26 @@
 #include "solver/model.h"
 
 /* Kernel constants per lane, ElementGroup.geometry. The natural gradients M = d(natural)/dX (2 x 2, row: natural
- * direction, column: material axis) come per integration point, then the values below. Surface groups have only the sign. */
+ * direction, column: material axis) come per integration point, then the values below. Surface groups have only the
+ * sign. */
 enum {
-    GEOMETRY_M11, GEOMETRY_M12, GEOMETRY_M21, GEOMETRY_M22, /* of the first point */
-    GEOMETRY_WEIGHT,                                        /* reference area x thickness of the point [L3] */
-    GEOMETRY_POINT_SIZE,                                    /* doubles per point */
+    GEOMETRY_M11,
+    GEOMETRY_M12,
+    GEOMETRY_M21,
+    GEOMETRY_M22,        /* of the first point */
+    GEOMETRY_WEIGHT,     /* reference area x thickness of the point [L3] */
+    GEOMETRY_POINT_SIZE, /* doubles per point */
     /* after the points: */
-    GEOMETRY_RATE = 0,   /* exact largest squared frequency of the element in its reference state [1/T2] */
+    GEOMETRY_RATE = 0,    /* exact largest squared frequency of the element in its reference state [1/T2] */
     GEOMETRY_STRESS_RATE, /* bound of the geometric stiffness: squared frequency per unit of stress [1/T2/(F/L2)] */
-    GEOMETRY_VISCOSITY,  /* DAMP x 2 / largest frequency [T] */
-    GEOMETRY_SIGN,       /* +1 or -1: orientation of the area vector; 0 in padding lanes */
+    GEOMETRY_VISCOSITY,   /* DAMP x 2 / largest frequency [T] */
+    GEOMETRY_SIGN,        /* +1 or -1: orientation of the area vector; 0 in padding lanes */
     GEOMETRY_TAIL_SIZE,
     /* after the tail, one-point quads only: */
-    GEOMETRY_SKEW1 = 0, GEOMETRY_SKEW2, /* reference hourglass vector in natural directions */
-    GEOMETRY_HOURGLASS1, GEOMETRY_HOURGLASS2, /* hourglass moduli x weight [energy/L4] */
+    GEOMETRY_SKEW1 = 0,
+    GEOMETRY_SKEW2, /* reference hourglass vector in natural directions */
+    GEOMETRY_HOURGLASS1,
+    GEOMETRY_HOURGLASS2, /* hourglass moduli x weight [energy/L4] */
     GEOMETRY_HOURGLASS_SIZE,
 };
 
@@ -46,13 +52,13 @@ typedef struct ChunkSums {
 typedef struct KernelInput {
     const ElementGroup *group;
     int first_block, end_block;
-    const double *x;     /* current positions (.. x 3) */
-    double inverse_step; /* 1 / dt of the last step; 0 at the start: no strain rate */
+    const double *x;      /* current positions (.. x 3) */
+    double inverse_step;  /* 1 / dt of the last step; 0 at the start: no strain rate */
     const double *origin; /* (3) of the volume */
-    double *history;     /* State.history */
-    double *corner;      /* corner buffer */
-    double *lane_rate;   /* squared frequency per padded element, or NULL */
-    bool restart_ledger; /* first call: histories are filled, no work is counted */
+    double *history;      /* State.history */
+    double *corner;       /* corner buffer */
+    double *lane_rate;    /* squared frequency per padded element, or NULL */
+    bool restart_ledger;  /* first call: histories are filled, no work is counted */
 } KernelInput;
 
 typedef void ElementKernel(const KernelInput *input, ChunkSums *sums);
@@ -65,8 +71,8 @@ typedef struct KernelTable {
     ElementKernel *quad_one;
 } KernelTable;
 
-/* The table for this processor; the environment variable BILLOW_KERNELS=v2|v3|v4 asks for a lesser one. NULL if the name
- * is unknown or the processor lacks it. */
+/* The table for this processor; the environment variable BILLOW_KERNELS=v2|v3|v4 asks for a lesser one. NULL if the
+ * name is unknown or the processor lacks it. */
 const KernelTable *kernels_select(const char *wish);
 
 /* Adds the sums of blocks [first_block, end_block) with the right kernel. */

@@ -16,15 +16,15 @@ typedef struct PlaneModuli {
 } PlaneModuli;
 
 typedef struct FabricLaw {
-    PlaneModuli fabric;    /* share (1 - LRATIO) included */
-    PlaneModuli liner;     /* share LRATIO included; zero without liner */
-    PlaneModuli whole;     /* fabric + liner */
+    PlaneModuli fabric; /* share (1 - LRATIO) included */
+    PlaneModuli liner;  /* share LRATIO included; zero without liner */
+    PlaneModuli whole;  /* fabric + liner */
     bool has_liner;
-    bool no_compression;   /* CSE = 1: tension field */
-    double damping;        /* DAMP: share of critical at the element's highest frequency */
-    double density;        /* [M/L3] */
-    double hourglass;      /* QH of the one-point quad */
-    double slack_share;    /* stiffness left when only the liner acts: largest eigenvalue of liner relative to all */
+    bool no_compression; /* CSE = 1: tension field */
+    double damping;      /* DAMP: share of critical at the element's highest frequency */
+    double density;      /* [M/L3] */
+    double hourglass;    /* QH of the one-point quad */
+    double slack_share;  /* stiffness left when only the liner acts: largest eigenvalue of liner relative to all */
 } FabricLaw;
 
 /* Isotropic plane-stress moduli (eq. F2). */

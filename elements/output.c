@@ -6,7 +6,10 @@
 #include "elements/kernels.h"
 #include "elements/membrane.h"
 
-static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /* Symmetric tensor sum of t11 u u + t22 w w + t12 (u w + w u) in order xx yy zz xy yz zx. */
 static void to_global(Tensor2 t, const double u[3], const double w[3], double scale, double out[6])
@@ -79,7 +82,8 @@ void membrane_result(const Model *model, const double *x, int element, ElementRe
     result->thickness = model->element_thickness[element];
     if (group->law == LAW_SURFACE) return;
     int64_t place = slot - group->first_element;
-    const double *geometry = group->geometry + place / BILLOW_LANES * group->geometry_size * BILLOW_LANES + place % BILLOW_LANES;
+    const double *geometry =
+        group->geometry + place / BILLOW_LANES * group->geometry_size * BILLOW_LANES + place % BILLOW_LANES;
     const int32_t *node = model->element_node + 4 * (ptrdiff_t)element;
     double corner[4][3], g1[3], g2[3], h[3];
     for (int a = 0; a < 4; a++) memcpy(corner[a], x + 3 * (ptrdiff_t)node[a], sizeof corner[a]);

@@ -37,7 +37,8 @@ int accept_deck(const Options *options, Accepted *accepted)
     if (unread && diagnostics_exit_code(diagnostics) == BILLOW_EXIT_NORMAL) add_memory_error(diagnostics);
     /* A deck with errors is still built, so that all its errors surface together; unless nothing could be read of it:
      * then every further message would only repeat that. */
-    if (unread && (definitions->incomplete || (definitions->nodes.count == 0 && definitions->shells.count == 0))) return -1;
+    if (unread && (definitions->incomplete || (definitions->nodes.count == 0 && definitions->shells.count == 0)))
+        return -1;
     if (diagnostics->environment > 0) return -1;
     const int unbuilt = model_build(definitions, &options->build, &accepted->model, diagnostics);
     if (unbuilt && diagnostics_exit_code(diagnostics) == BILLOW_EXIT_NORMAL) add_memory_error(diagnostics);

@@ -52,8 +52,8 @@ static int build_movement(Builder *b)
     for (int i = 0; i < b->shell_count; i++) shell_mass[i] = b->records[i].mass;
     for (int i = 0; i < m->airbag_count; i++)
         bags[i] = (AirbagNodes){m->airbags[i].node_count, m->airbags[i].node, b->definitions->airbags.items[i].mwd};
-    MotionInput input = {.index = &b->index, .x = b->x, .shell_mass = shell_mass, .airbag_count = m->airbag_count,
-                         .airbags = bags};
+    MotionInput input = {
+        .index = &b->index, .x = b->x, .shell_mass = shell_mass, .airbag_count = m->airbag_count, .airbags = bags};
     int status = build_motion(&input, b->mass, &b->motion, b->diagnostics);
     memory_free(shell_mass);
     memory_free(bags);
@@ -74,8 +74,8 @@ static int take_motion(Builder *b)
     m->segment_loads = motion->segment_loads;
     for (int p = 0; p < m->part_count; p++) m->parts[p].rigid_body = motion->part_body[p];
     void *blocks[] = {motion->constraints.supports, motion->constraints.motions, motion->constraints.hanging,
-                      motion->loads.node_loads, motion->loads.classes, motion->node_class, motion->rigid_bodies,
-                      motion->segment_loads};
+                      motion->loads.node_loads,     motion->loads.classes,       motion->node_class,
+                      motion->rigid_bodies,         motion->segment_loads};
     int status = 0;
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) status |= builder_adopt(b, blocks[i]);
     for (int i = 0; i < motion->rigid_body_count; i++)
@@ -149,8 +149,8 @@ static int run_stages(Builder *b)
 int model_build(const Definitions *definitions, const BuildOptions *options, Model *model, Diagnostics *diagnostics)
 {
     const BuildOptions none = {0};
-    Builder builder = {.definitions = definitions, .options = options ? options : &none, .diagnostics = diagnostics,
-                       .model = model};
+    Builder builder = {
+        .definitions = definitions, .options = options ? options : &none, .diagnostics = diagnostics, .model = model};
     *model = (Model){0};
     int errors = diagnostics->errors + diagnostics->environment;
     int status = run_stages(&builder);

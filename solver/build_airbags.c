@@ -36,11 +36,13 @@ static int common_fields(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     gas->gravity_conversion = 1.0;
     if (gas->temperature_dependent) gas->initial_temperature = bag->text;
     if (!gas->temperature_dependent && !(gas->cp > gas->cv && gas->cv > 0.0))
-        return input_error(b, bag->card3, "CP must exceed CV, both positive (or CV = 0 for capacities that depend on the "
-                                          "temperature)");
+        return input_error(b, bag->card3,
+                           "CP must exceed CV, both positive (or CV = 0 for capacities that depend on the "
+                           "temperature)");
     if (gas->temperature_dependent && !(gas->molar_mass > 0.0 && gas->gas_constant > 0.0 && gas->a > gas->gas_constant))
-        return input_error(b, bag->card3, "CV = 0 asks for heat capacities from A, B, MW and GASC: MW and GASC must be "
-                                          "positive and A must exceed GASC");
+        return input_error(b, bag->card3,
+                           "CV = 0 asks for heat capacities from A, B, MW and GASC: MW and GASC must be "
+                           "positive and A must exceed GASC");
     if (!(gas->ambient_pressure > 0.0) || !(gas->ambient_density > 0.0))
         return input_error(b, bag->model == AIRBAG_SIMPLE ? bag->card3 : bag->card5,
                            "PE and RO must be positive: they give the gas that fills the bag at the start");
@@ -131,10 +133,11 @@ static int build_airbag(Builder *b, int number)
         return -1;
     }
     if (start.temperature < 200.0 || start.temperature > 400.0)
-        diagnostics_add(b->diagnostics, SEVERITY_WARNING, definition->card1, "*AIRBAG",
-                        "airbag %d starts at %.4g K: PE, RO and the heat capacities imply it; check their units if that is "
-                        "not meant",
-                        bag->id, start.temperature);
+        diagnostics_add(
+            b->diagnostics, SEVERITY_WARNING, definition->card1, "*AIRBAG",
+            "airbag %d starts at %.4g K: PE, RO and the heat capacities imply it; check their units if that is "
+            "not meant",
+            bag->id, start.temperature);
     return 0;
 }
 

@@ -30,10 +30,11 @@ static int build_curve(Builder *b, const CurveDefinition *definition, Curve *cur
         }
         if (i == 0) continue;
         if (!(curve->x[i] > curve->x[i - 1])) {
-            diagnostics_add(b->diagnostics, SEVERITY_ERROR,
-                            (Source){definition->source.file, definition->lines.items[i]}, "*DEFINE_CURVE",
-                            "curve LCID = %d: abscissa %g of point %d does not exceed %g before it; abscissae must grow",
-                            definition->id, curve->x[i], i + 1, curve->x[i - 1]);
+            diagnostics_add(
+                b->diagnostics, SEVERITY_ERROR, (Source){definition->source.file, definition->lines.items[i]},
+                "*DEFINE_CURVE",
+                "curve LCID = %d: abscissa %g of point %d does not exceed %g before it; abscissae must grow",
+                definition->id, curve->x[i], i + 1, curve->x[i - 1]);
             return -1;
         }
         curve->area[i] = curve->area[i - 1] + 0.5 * (curve->y[i] + curve->y[i - 1]) * (curve->x[i] - curve->x[i - 1]);

@@ -48,7 +48,8 @@ static void place_groups(Model *m)
         ElementGroup *group = &m->groups[g];
         group->block_count = (group->element_count + LANES - 1) / LANES;
         group->geometry_size = geometry_size(group->kind, group->law);
-        group->has_history = group->law == LAW_LOGARITHMIC || (group->law == LAW_GREEN && group->material.damping > 0.0);
+        group->has_history =
+            group->law == LAW_LOGARITHMIC || (group->law == LAW_GREEN && group->material.damping > 0.0);
         group->history_size = group->has_history ? group->point_count * HISTORY_POINT_SIZE : 0;
         group->first_element = m->padded_count;
         group->first_chunk = m->chunk_count;
@@ -65,10 +66,14 @@ static void place_groups(Model *m)
 static const char *geometry_problem(GeometryStatus status)
 {
     switch (status) {
-    case GEOMETRY_ZERO_AREA: return "has no area: its nodes lie on a line or in one point; remove it or move its nodes";
-    case GEOMETRY_INVERTED: return "is inverted: its corners do not go round a convex quadrilateral; reorder its nodes";
-    case GEOMETRY_NO_FIBRE: return "is normal to its fibre direction (AOPT), which cannot be projected; choose another";
-    case GEOMETRY_OK: break;
+    case GEOMETRY_ZERO_AREA:
+        return "has no area: its nodes lie on a line or in one point; remove it or move its nodes";
+    case GEOMETRY_INVERTED:
+        return "is inverted: its corners do not go round a convex quadrilateral; reorder its nodes";
+    case GEOMETRY_NO_FIBRE:
+        return "is normal to its fibre direction (AOPT), which cannot be projected; choose another";
+    case GEOMETRY_OK:
+        break;
     }
     return "";
 }
@@ -78,7 +83,11 @@ static ElementInput record_input(const Builder *b, const ShellRecord *r, const d
 {
     for (int a = 0; a < r->corner_count; a++)
         for (int k = 0; k < 3; k++) x[3 * a + k] = positions[3 * r->node[a] + k];
-    ElementInput input = {.kind = r->kind, .x = x, .thickness = r->thickness, .mass = r->mass, .axis = r->axis,
+    ElementInput input = {.kind = r->kind,
+                          .x = x,
+                          .thickness = r->thickness,
+                          .mass = r->mass,
+                          .axis = r->axis,
                           .law = r->law == LAW_SURFACE ? NULL : &b->parts[r->part].fabric};
     return input;
 }
@@ -110,8 +119,7 @@ static int fill_group(Builder *b, ElementGroup *group, int first)
             status = 1;
         }
         if (real || group->law == LAW_SURFACE) continue;
-        for (int p = 0; p < group->point_count; p++)
-            out[(p * GEOMETRY_POINT_SIZE + GEOMETRY_WEIGHT) * LANES] = 0.0;
+        for (int p = 0; p < group->point_count; p++) out[(p * GEOMETRY_POINT_SIZE + GEOMETRY_WEIGHT) * LANES] = 0.0;
         for (int i = group->point_count * GEOMETRY_POINT_SIZE; i < group->geometry_size; i++) out[i * LANES] = 0.0;
     }
     group->node = node;
@@ -151,8 +159,7 @@ static int list_corners(Builder *b)
         first += group->element_count;
     }
     for (size_t n = 0; n < nodes; n++)
-        m->node_pressure[n] =
-            m->corner_start[n + 1] > m->corner_start[n] ? m->corner_set[m->corner_start[n]] : -1;
+        m->node_pressure[n] = m->corner_start[n + 1] > m->corner_start[n] ? m->corner_set[m->corner_start[n]] : -1;
     for (size_t n = 0; n < nodes; n++)
         if (m->node_pressure[n] < 0) m->node_pressure[n] = m->pressure_set_count;
     return 0;
@@ -177,7 +184,8 @@ static int fill_elements(Builder *b)
         const ShellRecord *r = &b->records[i];
         m->element_id[i] = b->definitions->shells.items[i].id;
         m->element_part[i] = r->part;
-        for (size_t a = 0; a < 4; a++) m->element_node[4 * i + a] = r->corner_count == 3 && a == 3 ? r->node[2] : r->node[a];
+        for (size_t a = 0; a < 4; a++)
+            m->element_node[4 * i + a] = r->corner_count == 3 && a == 3 ? r->node[2] : r->node[a];
         m->element_thickness[i] = r->thickness;
         m->element_mass[i] = r->mass;
         m->deformable_count += r->law != LAW_SURFACE;
@@ -228,7 +236,7 @@ int build_mass_scaling(Builder *b)
     }
     if (count)
         diagnostics_add(b->diagnostics, SEVERITY_WARNING, b->definitions->control.timestep.source, "*CONTROL_TIMESTEP",
-                        "DT2MS = %g scales the mass of %d elements from %.6g to %.6g (%+.3g %%)", wish, count, before, after,
-                        100.0 * (after - before) / before);
+                        "DT2MS = %g scales the mass of %d elements from %.6g to %.6g (%+.3g %%)", wish, count, before,
+                        after, 100.0 * (after - before) / before);
     return 0;
 }

@@ -1,4 +1,5 @@
-/* Numbering for locality: nodes by breadth-first levels inside their class, elements by their nodes inside their group. */
+/* Numbering for locality: nodes by breadth-first levels inside their class, elements by their nodes inside their group.
+ */
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,8 +21,7 @@ static int build_adjacency(const Builder *b, Adjacency *a)
         for (int c = 0; c < b->records[i].corner_count; c++) a->start[b->records[i].node[c] + 2]++;
     for (size_t n = 0; n < nodes; n++) a->start[n + 2] += a->start[n + 1];
     for (int i = 0; i < b->record_count; i++)
-        for (int c = 0; c < b->records[i].corner_count; c++)
-            a->record[a->start[b->records[i].node[c] + 1]++] = i;
+        for (int c = 0; c < b->records[i].corner_count; c++) a->record[a->start[b->records[i].node[c] + 1]++] = i;
     return 0;
 }
 
@@ -79,7 +79,8 @@ static void classify_nodes(const Builder *b, const Adjacency *a, unsigned char *
     motion_mark_special(&b->motion, class);
     for (int i = 0; b->options->caps_push_rim && i < b->model->airbag_count; i++)
         for (int k = 0; k < b->closures[i].cap_count; k++)
-            for (int c = 0; c < b->closures[i].caps[k].count; c++) class[b->closures[i].caps[k].node[c]] = CLASS_SPECIAL;
+            for (int c = 0; c < b->closures[i].caps[k].count; c++)
+                class[b->closures[i].caps[k].node[c]] = CLASS_SPECIAL;
     for (int n = 0; n < b->node_count; n++) {
         int first = a->start[n], last = a->start[n + 1];
         for (int k = first + 1; k < last; k++)
@@ -154,8 +155,7 @@ static void renumber_lists(Builder *b, const int32_t *new_index)
             }
         }
     }
-    for (int i = 0; i < m->output.history_count; i++)
-        m->output.history_node[i] = new_index[m->output.history_node[i]];
+    for (int i = 0; i < m->output.history_count; i++) m->output.history_node[i] = new_index[m->output.history_node[i]];
 }
 
 /* Node arrays of the model in the new order. */

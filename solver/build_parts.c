@@ -104,7 +104,8 @@ static double hourglass_modulus(const Builder *b, const PartDefinition *definiti
     const Definitions *d = b->definitions;
     double qh = d->control.hourglass.given ? d->control.hourglass.qh : 0.0;
     for (size_t i = 0; i < d->hourglasses.count; i++)
-        if (definition->hourglass && d->hourglasses.items[i].id == definition->hourglass) qh = d->hourglasses.items[i].qm;
+        if (definition->hourglass && d->hourglasses.items[i].id == definition->hourglass)
+            qh = d->hourglasses.items[i].qm;
     return qh > 0.0 ? qh : 0.1;
 }
 
@@ -126,10 +127,11 @@ static int part_law(Builder *b, const PartDefinition *definition, const Material
         break;
     case MATERIAL_ELASTIC:
         if (section->elform != 5 && section->elform != 9) {
-            diagnostics_add(b->diagnostics, SEVERITY_ERROR, section->source, "*SECTION_SHELL",
-                            "ELFORM = %d with *MAT_ELASTIC is a shell with bending, which billow does not have; use the "
-                            "membranes 5 or 9 (part %d)",
-                            section->elform, definition->id);
+            diagnostics_add(
+                b->diagnostics, SEVERITY_ERROR, section->source, "*SECTION_SHELL",
+                "ELFORM = %d with *MAT_ELASTIC is a shell with bending, which billow does not have; use the "
+                "membranes 5 or 9 (part %d)",
+                section->elform, definition->id);
             return -1;
         }
         if (!(m->e > 0.0) || !(m->pr > -1.0 && m->pr < 1.0)) {

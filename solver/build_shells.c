@@ -90,7 +90,8 @@ int build_shells(Builder *b)
     }
     b->x = memory_alloc(d->nodes.count * 3, sizeof *b->x);
     b->mass = memory_alloc(d->nodes.count, sizeof *b->mass);
-    if (!b->x || !b->mass || memory_reserve((void **)&b->records, &b->record_capacity, d->shells.count, sizeof *b->records)) {
+    if (!b->x || !b->mass ||
+        memory_reserve((void **)&b->records, &b->record_capacity, d->shells.count, sizeof *b->records)) {
         diagnostics_add(b->diagnostics, SEVERITY_ENVIRONMENT, BILLOW_NO_SOURCE, NULL, "no memory for the model");
         return -1;
     }

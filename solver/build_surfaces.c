@@ -63,8 +63,7 @@ static int airbag_facets(Builder *b, FacetMap *map, const AirbagDefinition *bag,
     int status;
     if (bag->sidtyp == 0) {
         status = sets_resolve_segments(&b->index, bag->sid, bag->card1, "*AIRBAG", &set, b->diagnostics);
-        for (size_t i = 0; !status && i < set.count; i += 4)
-            status = facets_add_segment(b, map, list, set.items + i);
+        for (size_t i = 0; !status && i < set.count; i += 4) status = facets_add_segment(b, map, list, set.items + i);
     } else {
         status = sets_resolve_parts(&b->index, bag->sid, bag->card1, "*AIRBAG", &set, b->diagnostics);
         for (size_t i = 0; !status && i < set.count; i++) {
@@ -110,8 +109,14 @@ static int close_bag(Builder *b, int airbag, FacetList *list)
     for (int i = 0; !status && i < b->node_count; i++) node_id[i] = b->definitions->nodes.items[i].id;
     for (size_t i = 0; !status && i < list->count; i++)
         id[i] = list->record[i] < b->shell_count ? b->definitions->shells.items[list->record[i]].id : (int)i + 1;
-    SurfaceInput input = {.facet_count = (int)list->count, .node = list->node, .facet_id = id, .x = b->x,
-                          .node_id = node_id, .name = name, .source = definition->source, .keyword = "*AIRBAG"};
+    SurfaceInput input = {.facet_count = (int)list->count,
+                          .node = list->node,
+                          .facet_id = id,
+                          .x = b->x,
+                          .node_id = node_id,
+                          .name = name,
+                          .source = definition->source,
+                          .keyword = "*AIRBAG"};
     if (!status) status = surface_close(&input, turn, &b->closures[airbag], b->diagnostics);
     for (size_t i = 0; !status && i < list->count; i++)
         if (turn[i] != 0) status = add_source(b, list->record[i], airbag, list->sign[i] * turn[i]); /* 0: inside */

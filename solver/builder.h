@@ -12,10 +12,10 @@
 typedef struct PartRecord {
     int material, section; /* positions in Definitions, -1 if missing (reported) */
     LawKind law;
-    ElementKind quad;      /* kind of its quads */
+    ElementKind quad; /* kind of its quads */
     FabricLaw fabric;
     FibreAxis axis;
-    double angle;          /* BETA of the material and the section [rad] */
+    double angle;                 /* BETA of the material and the section [rad] */
     double density, area_density; /* area_density: MAREA */
 } PartRecord;
 
@@ -27,11 +27,11 @@ typedef struct ShellRecord {
     LawKind law;
     double thickness, area, mass;
     FibreAxis axis;
-    int source_count;   /* pressures that act on it */
-    int source[4];      /* pressure sources: airbags, then segment loads */
-    int sign[4];        /* +1: the source is behind the stored winding (pushes along its normal) */
-    int pressure_set;   /* -1 none */
-    int orientation;    /* of the area vector relative to the stored winding */
+    int source_count; /* pressures that act on it */
+    int source[4];    /* pressure sources: airbags, then segment loads */
+    int sign[4];      /* +1: the source is behind the stored winding (pushes along its normal) */
+    int pressure_set; /* -1 none */
+    int orientation;  /* of the area vector relative to the stored winding */
 } ShellRecord;
 
 typedef struct Builder {
@@ -42,13 +42,13 @@ typedef struct Builder {
     DeckIndex index;
     int node_count, shell_count, record_count; /* records: shells, then bare segments */
     size_t record_capacity;
-    double *x;          /* (node_count x 3), deck order */
-    double *mass;       /* (node_count), deck order */
+    double *x;    /* (node_count x 3), deck order */
+    double *mass; /* (node_count), deck order */
     ShellRecord *records;
     PartRecord *parts;
     Motion motion;
     SurfaceClosure *closures; /* (airbag count), nodes in deck order until build_renumber */
-    int32_t *order;     /* element order: order[k] = record of the k-th element in group order */
+    int32_t *order;           /* element order: order[k] = record of the k-th element in group order */
 } Builder;
 
 /* A zeroed block that model_free releases; NULL without memory (reported as an environment error). */
@@ -56,15 +56,15 @@ void *builder_alloc(Builder *builder, size_t count, size_t size);
 int builder_adopt(Builder *builder, void *block);
 
 /* The stages, in order; 0, or -1 after reporting an error. Later stages need earlier ones to have succeeded. */
-int build_parts(Builder *builder);    /* materials, sections -> laws */
-int build_shells(Builder *builder);   /* shells -> records, masses */
+int build_parts(Builder *builder);  /* materials, sections -> laws */
+int build_shells(Builder *builder); /* shells -> records, masses */
 int build_curves(Builder *builder);
-int build_surfaces(Builder *builder); /* airbags' surfaces: orientation and caps */
+int build_surfaces(Builder *builder);      /* airbags' surfaces: orientation and caps */
 int build_pressure_sets(Builder *builder); /* and segment loads -> pressure sets; after build_motion */
-int build_airbags(Builder *builder);  /* gas models; after build_surfaces */
-int build_output(Builder *builder);   /* termination, step control, output plan */
-int build_mass_scaling(Builder *builder); /* DT2MS */
-int build_renumber(Builder *builder); /* node and element order for locality */
-int build_groups(Builder *builder);   /* blocks, kernel constants, corner lists */
+int build_airbags(Builder *builder);       /* gas models; after build_surfaces */
+int build_output(Builder *builder);        /* termination, step control, output plan */
+int build_mass_scaling(Builder *builder);  /* DT2MS */
+int build_renumber(Builder *builder);      /* node and element order for locality */
+int build_groups(Builder *builder);        /* blocks, kernel constants, corner lists */
 
 #endif

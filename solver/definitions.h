@@ -12,11 +12,11 @@
 #include "solver/diagnostics.h"
 
 /* A growing array of records: item type T, e.g. LIST(NodeDefinition) nodes. Grow with memory_reserve. */
-#define LIST(T)          \
-    struct {             \
-        T *items;        \
-        size_t count;    \
-        size_t capacity; \
+#define LIST(T)                                                                                                        \
+    struct {                                                                                                           \
+        T *items;                                                                                                      \
+        size_t count;                                                                                                  \
+        size_t capacity;                                                                                               \
     }
 
 typedef struct NodeDefinition {
@@ -46,8 +46,8 @@ typedef struct SectionShellDefinition {
     int id, elform, propt, icomp, setyp, qr_irid;
     double shrf, nip, t[4], nloc, marea, idof;
     int edgset;
-    int beta_count;   /* material angles when icomp = 1 */
-    double beta[8];   /* degrees, the first eight */
+    int beta_count; /* material angles when icomp = 1 */
+    double beta[8]; /* degrees, the first eight */
     Source source;
 } SectionShellDefinition;
 
@@ -82,7 +82,7 @@ typedef struct MaterialDefinition {
     MaterialKind kind;
     char title[BILLOW_TITLE_LENGTH];
     double ro;
-    double e, pr, da, db, k; /* MAT_ELASTIC; MAT_NULL's YM and PR are in e and pr */
+    double e, pr, da, db, k;     /* MAT_ELASTIC; MAT_NULL's YM and PR are in e and pr */
     double pc, mu, terod, cerod; /* MAT_NULL */
     FabricCard fabric;
     RigidCard rigid;
@@ -116,9 +116,9 @@ typedef struct SetDefinition {
     int id;
     char title[BILLOW_TITLE_LENGTH];
     double da[4];
-    LIST(int) members;                  /* _LIST: ids as written, zeros left out */
-    LIST(SetClause) clauses;            /* _GENERATE and _GENERAL */
-    LIST(SegmentDefinition) segments;   /* *SET_SEGMENT */
+    LIST(int) members;                /* _LIST: ids as written, zeros left out */
+    LIST(SetClause) clauses;          /* _GENERATE and _GENERAL */
+    LIST(SegmentDefinition) segments; /* *SET_SEGMENT */
     Source source;
 } SetDefinition;
 
@@ -137,7 +137,7 @@ typedef struct CoordinateDefinition {
     enum { COORDINATE_NODES, COORDINATE_SYSTEM, COORDINATE_VECTOR } kind;
     int id;
     int node[3], flag, cidl, nid;
-    char dir; /* 'X', 'Y' or 'Z' of _NODES */
+    char dir;                                  /* 'X', 'Y' or 'Z' of _NODES */
     double origin[3], x_point[3], xy_point[3]; /* _SYSTEM; _VECTOR puts its vectors in x_point and xy_point */
     Source source;
 } CoordinateDefinition;
@@ -160,22 +160,62 @@ typedef struct AdaptivityDefinition { /* *CONSTRAINED_ADAPTIVITY: node dnid hang
 } AdaptivityDefinition;
 
 typedef struct ControlDefinitions {
-    struct { double endtim, dtmin, endeng, endmas, nosol; int endcyc; Source source; bool given; } termination;
-    struct { double dtinit, tssfac, tslimt, dt2ms, dt2msf; int isdo, lctm, erode, ms1st, dt2mslc, imscl, rmscl, ihdo; double emscl; Source source; bool given; } timestep;
-    struct { int ihq; double qh; Source source; bool given; } hourglass;
-    struct { int hgen, rwen, slnten, rylen, irgen, maten, drlen, disen; Source source; bool given; } energy;
-    struct { int osu, inn, pidosu, iacc; double exacc; Source source; bool given; } accuracy;
-    struct { double q1, q2; int type, btype, tstype; Source source; bool given; } bulk_viscosity;
-    struct { double wrpang; int esort, irnxx, istupd, theory, bwc, miter, proj; Source source; bool given; } shell;
-    struct { int npopt, neecho, nrefup, iaccop, ipnint, ikedit, iflush, iprtf; double opifs; Source source; bool given; } output;
+    struct {
+        double endtim, dtmin, endeng, endmas, nosol;
+        int endcyc;
+        Source source;
+        bool given;
+    } termination;
+    struct {
+        double dtinit, tssfac, tslimt, dt2ms, dt2msf;
+        int isdo, lctm, erode, ms1st, dt2mslc, imscl, rmscl, ihdo;
+        double emscl;
+        Source source;
+        bool given;
+    } timestep;
+    struct {
+        int ihq;
+        double qh;
+        Source source;
+        bool given;
+    } hourglass;
+    struct {
+        int hgen, rwen, slnten, rylen, irgen, maten, drlen, disen;
+        Source source;
+        bool given;
+    } energy;
+    struct {
+        int osu, inn, pidosu, iacc;
+        double exacc;
+        Source source;
+        bool given;
+    } accuracy;
+    struct {
+        double q1, q2;
+        int type, btype, tstype;
+        Source source;
+        bool given;
+    } bulk_viscosity;
+    struct {
+        double wrpang;
+        int esort, irnxx, istupd, theory, bwc, miter, proj;
+        Source source;
+        bool given;
+    } shell;
+    struct {
+        int npopt, neecho, nrefup, iaccop, ipnint, ikedit, iflush, iprtf;
+        double opifs;
+        Source source;
+        bool given;
+    } output;
 } ControlDefinitions;
 
 /* *DATABASE_<name>: output interval of one result. */
 typedef struct DatabaseDefinition {
     char name[32]; /* "ABSTAT", "GLSTAT", "BINARY_D3PLOT", ... */
-    double dt; /* interval of time; of BINARY_D3DUMP and BINARY_RUNRSF in cycles */
-    int lcur;  /* curve of intervals over time; 0 none */
-    int npltc; /* BINARY_D3PLOT: > 0 asks for this many states up to ENDTIM, dt is then ENDTIM / NPLTC */
+    double dt;     /* interval of time; of BINARY_D3DUMP and BINARY_RUNRSF in cycles */
+    int lcur;      /* curve of intervals over time; 0 none */
+    int npltc;     /* BINARY_D3PLOT: > 0 asks for this many states up to ENDTIM, dt is then ENDTIM / NPLTC */
     Source source;
 } DatabaseDefinition;
 
@@ -209,7 +249,7 @@ typedef struct InitialVelocityDefinition {
         VELOCITY_RIGID_BODY  /* part id */
     } kind;
     int id, styp, nsidex, boxid, irigid, icid, phase, ivatn;
-    double v[3], w[3];  /* translation and rotation rates */
+    double v[3], w[3];   /* translation and rotation rates */
     double vx_exempt[6]; /* card for exempted nodes: vxe vye vze vxre vyre vzre */
     double omega, centre[3], axis[3];
     Source source;
@@ -222,7 +262,8 @@ typedef struct NodeLoadDefinition { /* *LOAD_NODE_POINT / _SET */
     Source source;
 } NodeLoadDefinition;
 
-typedef struct SegmentLoadDefinition { /* *LOAD_SEGMENT / _SET (_ID): pressure from curve lcid times sf, arrival time at */
+typedef struct SegmentLoadDefinition { /* *LOAD_SEGMENT / _SET (_ID): pressure from curve lcid times sf, arrival time at
+                                        */
     bool is_set;
     int id; /* set id, or 0 */
     int lcid;
@@ -232,7 +273,7 @@ typedef struct SegmentLoadDefinition { /* *LOAD_SEGMENT / _SET (_ID): pressure f
 } SegmentLoadDefinition;
 
 typedef struct BodyLoadDefinition { /* *LOAD_BODY_X/Y/Z */
-    int axis; /* 0, 1, 2 */
+    int axis;                       /* 0, 1, 2 */
     int lcid, lciddr, cid;
     double sf, xc, yc, zc;
     Source source;
@@ -248,8 +289,8 @@ typedef struct GravityPartDefinition { /* *LOAD_GRAVITY_PART / _SET */
 typedef struct DampingDefinition { /* *DAMPING_GLOBAL (part 0) and *DAMPING_PART_MASS(_SET) */
     bool is_global, is_set;
     int id, lcid, flag;
-    double sf;              /* factor on the curve, or valdmp of DAMPING_GLOBAL when lcid = 0 */
-    double st[6];           /* scale factors x y z rx ry rz; all zero means all one */
+    double sf;    /* factor on the curve, or valdmp of DAMPING_GLOBAL when lcid = 0 */
+    double st[6]; /* scale factors x y z rx ry rz; all zero means all one */
     Source source;
 } DampingDefinition;
 
@@ -263,17 +304,17 @@ typedef struct AirbagDefinition {
     int sid, sidtyp, rbid;
     double vsca, psca, vini, mwd, spsf;
     double cv, cp, t;
-    int lcid;                            /* SIMPLE: mass flow curve */
-    double mu, area, pe, ro;             /* SIMPLE card 3 */
-    int lou;                             /* SIMPLE card 4 */
-    double text, a, b, mw, gasc, hconv;  /* SIMPLE 4a, WANG_NEFSKE 7 */
-    int lct, lcmt, lcdt;                 /* WANG_NEFSKE 3 */
+    int lcid;                           /* SIMPLE: mass flow curve */
+    double mu, area, pe, ro;            /* SIMPLE card 3 */
+    int lou;                            /* SIMPLE card 4 */
+    double text, a, b, mw, gasc, hconv; /* SIMPLE 4a, WANG_NEFSKE 7 */
+    int lct, lcmt, lcdt;                /* WANG_NEFSKE 3 */
     double tvol, iabt;
-    double c23, a23, cp23, ap23;         /* WANG_NEFSKE 4 */
+    double c23, a23, cp23, ap23; /* WANG_NEFSKE 4 */
     int lcc23, lca23, lccp23, lcap23;
-    double gc, pover, ppop, opt;         /* WANG_NEFSKE 5 (pe, ro above) */
+    double gc, pover, ppop, opt; /* WANG_NEFSKE 5 (pe, ro above) */
     int lcefr, knkdn;
-    double ioc, ioa, ivol, iro, it;      /* WANG_NEFSKE 6 */
+    double ioc, ioa, ivol, iro, it; /* WANG_NEFSKE 6 */
     int lcbf;
     Source source, card1, card3, card4, card5, card6, card7;
 } AirbagDefinition;

@@ -42,8 +42,8 @@ void diagnostics_free(Diagnostics *diagnostics);
 int diagnostics_add_file(Diagnostics *diagnostics, const char *name);
 
 /* Adds one message; keyword may be NULL. Text in printf form, one or two sentences, no final newline. */
-void diagnostics_add(Diagnostics *diagnostics, Severity severity, Source source, const char *keyword, const char *format,
-                     ...) __attribute__((format(printf, 5, 6)));
+void diagnostics_add(Diagnostics *diagnostics, Severity severity, Source source, const char *keyword,
+                     const char *format, ...) __attribute__((format(printf, 5, 6)));
 
 /* Prints one message as compilers do: `FILE:LINE: error: *KEYWORD: text`. */
 void diagnostics_print_message(const Diagnostics *diagnostics, const Message *message, FILE *stream);

@@ -2,8 +2,8 @@
  * after. Node and element indices are internal, from 0; the user's ids are in node_id and element_id.
  *
  * Node order: [0, free_count) move by Newton's law alone (the lean loop); [free_count, moving_count) carry something
- * special (supports, prescribed motion, rigid bodies, hanging nodes, point loads, several pressures) and take the general
- * path; [moving_count, node_count) never move. */
+ * special (supports, prescribed motion, rigid bodies, hanging nodes, point loads, several pressures) and take the
+ * general path; [moving_count, node_count) never move. */
 #ifndef BILLOW_MODEL_H
 #define BILLOW_MODEL_H
 
@@ -69,33 +69,33 @@ typedef struct Part {
     int material_kind; /* MaterialKind */
     int rigid_body;    /* index into Model.rigid_bodies, -1 if deformable */
     int element_count;
-    double mass;       /* [M] */
-    double area;       /* initial [L2] */
+    double mass; /* [M] */
+    double area; /* initial [L2] */
     double density, thickness;
 } Part;
 
 /* One control volume. */
 typedef struct Airbag {
-    int id;                          /* the user's, or counted from 1 in deck order */
+    int id; /* the user's, or counted from 1 in deck order */
     char heading[BILLOW_TITLE_LENGTH];
-    GasModel gas;                    /* airbag/gas.h */
-    double vsca, psca, vini;         /* V_gas = VSCA V - VINI, p_applied = PSCA p */
+    GasModel gas;            /* airbag/gas.h */
+    double vsca, psca, vini; /* V_gas = VSCA V - VINI, p_applied = PSCA p */
     double mwd, spsf;
-    SurfaceClosure closure;          /* caps and report, airbag/surface.h */
-    int *part;                       /* indices of the parts on its surface (part_count) */
+    SurfaceClosure closure; /* caps and report, airbag/surface.h */
+    int *part;              /* indices of the parts on its surface (part_count) */
     int part_count;
-    int *node;                       /* nodes on its surface (node_count), ascending */
+    int *node; /* nodes on its surface (node_count), ascending */
     int node_count;
-    double ambient;                  /* pressure outside: applied pressure = p - ambient */
+    double ambient; /* pressure outside: applied pressure = p - ambient */
     Source source;
 } Airbag;
 
 /* Output schedule from the *DATABASE cards; an interval of 0 means none. */
 typedef struct OutputPlan {
-    double states;                     /* VTKHDF and XDMF */
+    double states; /* VTKHDF and XDMF */
     double glstat, abstat, nodout, rbdout, rcforc, rwforc, matsum;
-    double restart;                    /* checkpoint interval, 0: only at the end or on signal */
-    int *history_node;                 /* nodes of nodout (history_count) */
+    double restart;    /* checkpoint interval, 0: only at the end or on signal */
+    int *history_node; /* nodes of nodout (history_count) */
     int history_count;
 } OutputPlan;
 
@@ -103,21 +103,21 @@ typedef struct Model {
     char title[BILLOW_TITLE_LENGTH];
 
     int node_count, free_count, moving_count;
-    int *node_id;          /* user's ids (node_count) */
-    int *deck_node;        /* internal index of the deck's i-th node (node_count) */
-    double *initial;       /* initial position (node_count x 3) [L] */
-    double *reference;     /* reference position X (node_count x 3) [L] */
-    double *velocity;      /* initial velocity (node_count x 3) [L/T] */
-    double *mass;          /* lumped, mass scaling included (node_count) [M] */
-    double *inverse_mass;  /* (node_count); 0 for massless nodes */
-    int32_t *node_pressure;/* pressure set of nodes in the lean loop (node_count); pressure_set_count: none */
-    int32_t *node_class;   /* body-force and damping class (node_count); NULL if the scene has none */
+    int *node_id;           /* user's ids (node_count) */
+    int *deck_node;         /* internal index of the deck's i-th node (node_count) */
+    double *initial;        /* initial position (node_count x 3) [L] */
+    double *reference;      /* reference position X (node_count x 3) [L] */
+    double *velocity;       /* initial velocity (node_count x 3) [L/T] */
+    double *mass;           /* lumped, mass scaling included (node_count) [M] */
+    double *inverse_mass;   /* (node_count); 0 for massless nodes */
+    int32_t *node_pressure; /* pressure set of nodes in the lean loop (node_count); pressure_set_count: none */
+    int32_t *node_class;    /* body-force and damping class (node_count); NULL if the scene has none */
 
-    int element_count;     /* shells in deck order, rigid ones included; bare segments are not counted */
+    int element_count; /* shells in deck order, rigid ones included; bare segments are not counted */
     int deformable_count;
     int *element_id, *element_part;
-    int32_t *element_node; /* (element_count x 4); triangles repeat the third */
-    int64_t *element_slot; /* padded element index: group g, block b, lane l -> g.first_element + b LANES + l */
+    int32_t *element_node;     /* (element_count x 4); triangles repeat the third */
+    int64_t *element_slot;     /* padded element index: group g, block b, lane l -> g.first_element + b LANES + l */
     double *element_thickness; /* (element_count) [L] */
     double *element_mass;      /* (element_count) [M] */
 
@@ -126,9 +126,9 @@ typedef struct Model {
     size_t history_size, corner_size; /* doubles */
     int32_t *corner_start; /* CSR: corners of node n are corner_list[corner_start[n] .. corner_start[n + 1]) */
     CornerPlace *corner_list;
-    int32_t *corner_set;   /* pressure set of each corner, for nodes beyond free_count (parallel to corner_list) */
+    int32_t *corner_set; /* pressure set of each corner, for nodes beyond free_count (parallel to corner_list) */
 
-    double origin[3];      /* point about which volumes are summed [L] */
+    double origin[3]; /* point about which volumes are summed [L] */
     int pressure_set_count;
     PressureSet *pressure_sets;
 
@@ -139,21 +139,21 @@ typedef struct Model {
     int curve_count;
     Curve *curves;
     int segment_load_count;
-    SegmentLoad *segment_loads;    /* solver/loads.h */
-    Loads loads;                   /* node loads, body classes: solver/loads.h */
-    Constraints constraints;       /* supports, prescribed motion, hanging nodes: solver/constraints.h */
+    SegmentLoad *segment_loads; /* solver/loads.h */
+    Loads loads;                /* node loads, body classes: solver/loads.h */
+    Constraints constraints;    /* supports, prescribed motion, hanging nodes: solver/constraints.h */
     int rigid_body_count;
-    RigidBody *rigid_bodies;       /* moving ones, solver/rigid_body.h */
+    RigidBody *rigid_bodies; /* moving ones, solver/rigid_body.h */
 
     double end_time, step_scale, step_initial, step_minimum; /* ENDTIM, TSSFAC, DTINIT, DTMIN */
-    bool caps_push_rim;            /* hole caps give their pressure force to their rim */
+    bool caps_push_rim;                                      /* hole caps give their pressure force to their rim */
     int end_cycle;
-    int step_limit_curve;          /* index into curves, -1 none (TSLIMT's LCTM) */
-    double added_mass;             /* by DT2MS [M] */
-    double energy_error_limit;     /* the run stops beyond this share, 0.1 by default */
+    int step_limit_curve;      /* index into curves, -1 none (TSLIMT's LCTM) */
+    double added_mass;         /* by DT2MS [M] */
+    double energy_error_limit; /* the run stops beyond this share, 0.1 by default */
     OutputPlan output;
 
-    void **owned;                  /* blocks released by model_free */
+    void **owned; /* blocks released by model_free */
     size_t owned_count, owned_capacity;
 } Model;
 

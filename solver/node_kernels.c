@@ -9,11 +9,20 @@
 typedef double Vector __attribute__((vector_size(32)));
 typedef double LooseVector __attribute__((vector_size(32), aligned(8), may_alias));
 
-static inline Vector load3(const double *p) { return *(const LooseVector *)p; }
+static inline Vector load3(const double *p)
+{
+    return *(const LooseVector *)p;
+}
 
-static inline void store3(double *p, Vector v) { memcpy(p, &v, 3 * sizeof *p); }
+static inline void store3(double *p, Vector v)
+{
+    memcpy(p, &v, 3 * sizeof *p);
+}
 
-static inline double sum3(Vector v) { return v[0] + v[1] + v[2]; }
+static inline double sum3(Vector v)
+{
+    return v[0] + v[1] + v[2];
+}
 
 /* Stress forces f and area vector s of one node: sums over its corners in element order. */
 static inline void gather_node(const Workspace *w, int node, Vector *f, Vector *s)
@@ -66,8 +75,11 @@ static void lean_chunk(Workspace *w, int first, int end, NodeSums *sums)
         compliance += inverse * (s * s);
         if (plan.emit) keep_view(w, node, a, full, f);
     }
-    *sums = (NodeSums){.kinetic = sum3(kinetic), .bag_before = sum3(bag_before), .bag_after = sum3(bag_after),
-                       .load_before = sum3(load_before), .load_after = sum3(load_after),
+    *sums = (NodeSums){.kinetic = sum3(kinetic),
+                       .bag_before = sum3(bag_before),
+                       .bag_after = sum3(bag_after),
+                       .load_before = sum3(load_before),
+                       .load_after = sum3(load_after),
                        .compliance = sum3(compliance)};
 }
 
@@ -90,7 +102,8 @@ static void general_chunk(Workspace *w, int first, int end, NodeSums *sums)
         Vector gravity = load3(w->class_gravity + 3 * class), damping = load3(w->class_damping + 3 * class),
                reference = load3(w->class_velocity + 3 * class), old = load3(vn);
         double area2 = sum3(s * s), normal = sum3(s * old);
-        double stagnation = area2 == 0.0 ? 0.0 : -w->stagnation[set] * normal * (normal < 0.0 ? -normal : normal) / area2;
+        double stagnation =
+            area2 == 0.0 ? 0.0 : -w->stagnation[set] * normal * (normal < 0.0 ? -normal : normal) / area2;
         f += (bag + load + stagnation) * s;
         Vector force = f * inverse + gravity, d = damping * plan.dt_mean;
         Vector now = (old * (1.0 - 0.5 * d) + d * reference + force * plan.dt_mean) / (1.0 + 0.5 * d);

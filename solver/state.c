@@ -39,7 +39,10 @@ size_t state_size(const Model *model)
     return lay_out(model, &none);
 }
 
-void state_bind(const Model *model, State *state) { lay_out(model, state); }
+void state_bind(const Model *model, State *state)
+{
+    lay_out(model, state);
+}
 
 /* Volume and area of every bag at the initial positions, with the very kernels of the step. */
 static int initial_volumes(const Model *model, State *state, double *volume, double *area)
@@ -55,8 +58,13 @@ static int initial_volumes(const Model *model, State *state, double *volume, dou
     for (int g = 0; g < model->group_count; g++) {
         const ElementGroup *group = &model->groups[g];
         ChunkSums sums = {0};
-        KernelInput input = {.group = group, .end_block = group->block_count, .x = state->x, .origin = model->origin,
-                             .history = state->history, .corner = corner, .restart_ledger = true};
+        KernelInput input = {.group = group,
+                             .end_block = group->block_count,
+                             .x = state->x,
+                             .origin = model->origin,
+                             .history = state->history,
+                             .corner = corner,
+                             .restart_ledger = true};
         kernels_for(kernels, group)(&input, &sums);
         if (group->law == LAW_GREEN) {
             state->group_energy[g] = sums.energy;

@@ -13,8 +13,8 @@
 typedef struct Energies {
     double kinetic, internal, hourglass, damping, contact;
     double external_work, airbag_work;
-    double initial;                 /* kinetic + internal at the start */
-    double largest;                 /* largest total so far, scale of the balance */
+    double initial; /* kinetic + internal at the start */
+    double largest; /* largest total so far, scale of the balance */
     double ratio, ratio_min, ratio_max;
     double airbag_half, external_half; /* works up to the half step after t_n */
     double material_damping;           /* share of damping: DAMP of the laws with a stored energy */
@@ -22,9 +22,9 @@ typedef struct Energies {
 } Energies;
 
 typedef struct Clock {
-    double time;      /* t_n */
-    double step;      /* dt_{n+1/2}, the step last taken */
-    double step_next; /* dt_{n+1/2}, the step to be taken from t_n */
+    double time;       /* t_n */
+    double step;       /* dt_{n+1/2}, the step last taken */
+    double step_next;  /* dt_{n+1/2}, the step to be taken from t_n */
     double step_first; /* the first step, scale of a collapsing one */
     double compliance; /* sum of |s|^2/m over the nodes under pressure, of the last cycle */
     int64_t cycle;
@@ -38,15 +38,15 @@ typedef struct State {
     size_t size;           /* bytes */
     Clock *clock;
     Energies *energy;
-    double *x;             /* current position (node_count x 3) [L], written by the node pass */
-    double *v;             /* velocity at the half step (node_count x 3) [L/T], written by the node pass */
-    double *history;       /* element histories, layout per group (elements/membrane.h) */
-    GasState *gas;         /* (airbag_count), airbag/gas.h */
-    double *part_energy;   /* internal energy of each part by the stress-work ledger (part_count) */
+    double *x;           /* current position (node_count x 3) [L], written by the node pass */
+    double *v;           /* velocity at the half step (node_count x 3) [L/T], written by the node pass */
+    double *history;     /* element histories, layout per group (elements/membrane.h) */
+    GasState *gas;       /* (airbag_count), airbag/gas.h */
+    double *part_energy; /* internal energy of each part by the stress-work ledger (part_count) */
     double *part_hourglass;
-    double *group_energy;  /* energy stored in each group at the last cycle (group_count) */
-    double *cap_volume;    /* under the caps of each bag at the last cycle (airbag_count) [L3] */
-    RigidState *rigid;     /* (rigid_body_count), solver/rigid_body.h */
+    double *group_energy; /* energy stored in each group at the last cycle (group_count) */
+    double *cap_volume;   /* under the caps of each bag at the last cycle (airbag_count) [L3] */
+    RigidState *rigid;    /* (rigid_body_count), solver/rigid_body.h */
 } State;
 
 /* Bytes that a State of this model needs. */

@@ -92,10 +92,11 @@ static int allocate(Workspace *w)
     w->kept_history = memory_alloc((size_t)BILLOW_CHUNK * BILLOW_LANES * 4 * HISTORY_POINT_SIZE, sizeof(double));
     w->special_kind = memory_alloc(special + 1, 1);
     w->gas_pass = memory_alloc(((size_t)w->node_chunk_count + 1) * bags, sizeof *w->gas_pass);
-    void *needed[] = {w->corner, w->chunks, w->node_sums, w->bag_pressure, w->load_pressure, w->stagnation,
-                      w->set_volume, w->set_area, w->source_pressure, w->class_gravity, w->class_damping,
-                      w->class_velocity, w->bag_volume, w->bag_area, w->force, w->before,
-                      w->acceleration, w->velocity, w->part_kinetic, w->part_momentum, w->special_kind, w->lane_rate, w->kept_history, w->gas_pass};
+    void *needed[] = {w->corner,        w->chunks,         w->node_sums,    w->bag_pressure,    w->load_pressure,
+                      w->stagnation,    w->set_volume,     w->set_area,     w->source_pressure, w->class_gravity,
+                      w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
+                      w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
+                      w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
     return 0;
@@ -103,10 +104,11 @@ static int allocate(Workspace *w)
 
 static void release(Workspace *w)
 {
-    void *blocks[] = {w->corner, w->chunks, w->node_sums, w->bag_pressure, w->load_pressure, w->stagnation,
-                      w->set_volume, w->set_area, w->source_pressure, w->class_gravity, w->class_damping,
-                      w->class_velocity, w->bag_volume, w->bag_area, w->force, w->before,
-                      w->acceleration, w->velocity, w->part_kinetic, w->part_momentum, w->special_kind, w->lane_rate, w->kept_history, w->gas_pass};
+    void *blocks[] = {w->corner,        w->chunks,         w->node_sums,    w->bag_pressure,    w->load_pressure,
+                      w->stagnation,    w->set_volume,     w->set_area,     w->source_pressure, w->class_gravity,
+                      w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
+                      w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
+                      w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
 }
 
@@ -200,9 +202,14 @@ static void emit_failed(Workspace *w)
     step_emit(w);
 }
 
-int solver_run(const Model *model, State *state, int threads, const RunHooks *hooks, StageTimes *times, Failure *failure)
+int solver_run(const Model *model, State *state, int threads, const RunHooks *hooks, StageTimes *times,
+               Failure *failure)
 {
-    Workspace w = {.model = model, .state = state, .hooks = hooks, .times = times, .failure = failure,
+    Workspace w = {.model = model,
+                   .state = state,
+                   .hooks = hooks,
+                   .times = times,
+                   .failure = failure,
                    .kernels = kernels_select(NULL)};
     double start = wall_clock();
     *failure = (Failure){0};

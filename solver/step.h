@@ -9,10 +9,10 @@
 
 /* Full-step quantities of the cycle that is being written; valid during RunHooks.emit only. */
 typedef struct StepView {
-    const double *x; /* positions at t_n (node_count x 3) */
-    const double *v; /* velocities at t_n, the mean of the half steps (node_count x 3) */
-    const double *a; /* accelerations at t_n (node_count x 3) */
-    const double *f; /* total nodal forces at t_n (node_count x 3) */
+    const double *x;             /* positions at t_n (node_count x 3) */
+    const double *v;             /* velocities at t_n, the mean of the half steps (node_count x 3) */
+    const double *a;             /* accelerations at t_n (node_count x 3) */
+    const double *f;             /* total nodal forces at t_n (node_count x 3) */
     const double *part_kinetic;  /* kinetic energy of each part at t_n (part_count) */
     const double *part_momentum; /* (part_count x 3) */
     double element_step;         /* stable step of the elements before TSSFAC */
@@ -44,6 +44,7 @@ typedef struct StageTimes {
 
 /* Runs from state to the end time (or stop, or failure) on the given number of threads. Returns 0, or -1 with *failure
  * set; the last good state has then been emitted. */
-int solver_run(const Model *model, State *state, int threads, const RunHooks *hooks, StageTimes *times, Failure *failure);
+int solver_run(const Model *model, State *state, int threads, const RunHooks *hooks, StageTimes *times,
+               Failure *failure);
 
 #endif

@@ -34,8 +34,14 @@ static int find_critical(Workspace *w)
     size_t per_block = (size_t)group->history_size * BILLOW_LANES, size = (size_t)(end - first) * per_block;
     double *history = w->state->history + group->history_offset + (size_t)first * per_block;
     memcpy(w->kept_history, history, size * sizeof *history);
-    KernelInput input = {.group = group, .first_block = first, .end_block = end, .x = w->state->x, .origin = m->origin,
-                         .history = w->state->history, .corner = w->corner, .lane_rate = w->lane_rate};
+    KernelInput input = {.group = group,
+                         .first_block = first,
+                         .end_block = end,
+                         .x = w->state->x,
+                         .origin = m->origin,
+                         .history = w->state->history,
+                         .corner = w->corner,
+                         .lane_rate = w->lane_rate};
     ChunkSums sums = {0};
     kernels_for(w->kernels, group)(&input, &sums);
     memcpy(history, w->kept_history, size * sizeof *history);
@@ -59,8 +65,13 @@ void step_emit(Workspace *w)
     const Model *m = w->model;
     if (!w->failure->failed) step_close_energies(w);
     sum_parts(w);
-    StepView view = {.x = w->state->x, .v = w->velocity, .a = w->acceleration, .f = w->force,
-                     .part_kinetic = w->part_kinetic, .part_momentum = w->part_momentum, .element_step = w->element_step,
+    StepView view = {.x = w->state->x,
+                     .v = w->velocity,
+                     .a = w->acceleration,
+                     .f = w->force,
+                     .part_kinetic = w->part_kinetic,
+                     .part_momentum = w->part_momentum,
+                     .element_step = w->element_step,
                      .critical_element = find_critical(w)};
     w->plan.stop = w->hooks->emit(w->hooks->user, m, w->state, &view, w->plan.last) != 0;
 }

@@ -46,7 +46,8 @@ void step_close_energies(Workspace *w)
     w->state->clock->compliance = t.compliance;
     double held = e->kinetic + e->internal + e->hourglass + e->damping + e->contact;
     double given = e->initial + e->external_work + e->airbag_work;
-    double parts[] = {e->kinetic, fabs(e->internal), e->damping, fabs(e->external_work), fabs(e->airbag_work), fabs(given)};
+    double parts[] = {e->kinetic,           fabs(e->internal), e->damping, fabs(e->external_work),
+                      fabs(e->airbag_work), fabs(given)};
     for (int i = 0; i < 6; i++) e->largest = parts[i] > e->largest ? parts[i] : e->largest;
     w->closed = true;
     if (!isfinite(held) || !isfinite(given)) {
@@ -59,8 +60,9 @@ void step_close_energies(Workspace *w)
     e->ratio_min = e->ratio < e->ratio_min ? e->ratio : e->ratio_min;
     e->ratio_max = e->ratio > e->ratio_max ? e->ratio : e->ratio_max;
     if (fabs(held - given) > m->energy_error_limit * e->largest && e->largest > 0.0)
-        step_fail(w, "the step is unstable or a load is not what was meant: lower TSSFAC, look at the last state; "
-                     "--energy-error-limit raises the limit",
-                  "the energy balance is lost: %.6g held against %.6g given (%.1f %% of the largest energy)", held, given,
-                  100.0 * fabs(held - given) / e->largest);
+        step_fail(w,
+                  "the step is unstable or a load is not what was meant: lower TSSFAC, look at the last state; "
+                  "--energy-error-limit raises the limit",
+                  "the energy balance is lost: %.6g held against %.6g given (%.1f %% of the largest energy)", held,
+                  given, 100.0 * fabs(held - given) / e->largest);
 }

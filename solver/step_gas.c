@@ -60,8 +60,7 @@ static void set_pressures(Workspace *w)
     const Model *m = w->model;
     for (int i = 0; i < m->airbag_count; i++) w->source_pressure[i] = w->state->gas[i].applied;
     for (int i = 0; i < m->segment_load_count; i++)
-        w->source_pressure[m->airbag_count + i] =
-            loads_segment_pressure(&m->segment_loads[i], m->curves, w->plan.time);
+        w->source_pressure[m->airbag_count + i] = loads_segment_pressure(&m->segment_loads[i], m->curves, w->plan.time);
     for (int s = 0; s < m->pressure_set_count; s++) {
         const PressureSet *set = &m->pressure_sets[s];
         w->bag_pressure[s] = w->load_pressure[s] = w->stagnation[s] = 0.0;
@@ -99,12 +98,15 @@ static int advance_bags(Workspace *w)
     if (!(w->plan.dt_before > 0.0)) return 0;
     for (int i = 0; i < m->airbag_count; i++) {
         const Airbag *bag = &m->airbags[i];
-        GasStep step = {.time = w->plan.time - w->plan.dt_before, .dt = w->plan.dt_before, .volume = w->bag_volume[i],
+        GasStep step = {.time = w->plan.time - w->plan.dt_before,
+                        .dt = w->plan.dt_before,
+                        .volume = w->bag_volume[i],
                         .area = w->bag_area[i]};
         const char *why = "";
         if (gas_advance(&bag->gas, m->curves, bag->vsca, bag->psca, bag->vini, &step, &w->state->gas[i], &why)) {
-            step_fail(w, "look at the last state written: walls that pass through each other or a step that is too large "
-                         "do this; lower TSSFAC, or close the bag",
+            step_fail(w,
+                      "look at the last state written: walls that pass through each other or a step that is too large "
+                      "do this; lower TSSFAC, or close the bag",
                       "airbag %d: %s (volume %g)", bag->id, why, w->bag_volume[i]);
             return -1;
         }
@@ -182,10 +184,10 @@ static int choose_step(Workspace *w, double rate)
         if (limit > 0.0 && limit < step) step = limit;
     }
     if (clock->cycle == 0) clock->step_first = step;
-    if (m->deformable_count > 0 &&
-        (step < clock->step_first * 1e-6 || step < m->step_minimum * clock->step_first)) {
-        step_fail(w, "an element has collapsed or is stretched far beyond its size; look at it in the last state, or add "
-                     "mass with DT2MS",
+    if (m->deformable_count > 0 && (step < clock->step_first * 1e-6 || step < m->step_minimum * clock->step_first)) {
+        step_fail(w,
+                  "an element has collapsed or is stretched far beyond its size; look at it in the last state, or add "
+                  "mass with DT2MS",
                   "the time step fell to %g from %g", step, clock->step_first);
         return -1;
     }

@@ -1,5 +1,6 @@
-/* The gas of a nearly empty bag is far stiffer than its walls: its pressure is then taken at the mean volume of the step,
- * which bounds the frequency of the breathing mode for any step (docs/theory.md, Time integration, eq. T9 to T11).
+/* The gas of a nearly empty bag is far stiffer than its walls: its pressure is then taken at the mean volume of the
+ * step, which bounds the frequency of the breathing mode for any step (docs/theory.md, Time integration, eq. T9 to
+ * T11).
  *
  * With k = -dp/dV, s the area vectors and M the masses, (M + b dt^2 k s s^T) a = f, b = 1/4, is solved by one scalar:
  * a = M^-1 (f + dp s), dp = -b dt^2 k (s.M^-1 f) / (1 + b dt^2 k s.M^-1 s). At rest dp = 0. */

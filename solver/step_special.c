@@ -131,8 +131,8 @@ void step_special(Workspace *w)
     loads_apply_points(&m->loads, m->curves, plan->time, state->x, w->force);
     constraints_fold_forces(&m->constraints, w->force);
     accelerate(w, t);
-    constraints_apply(&m->constraints, m->curves, plan->time, plan->dt_mean, plan->dt_next, state->x, m->initial, m->mass,
-                      w->before, state->v, &t->reaction);
+    constraints_apply(&m->constraints, m->curves, plan->time, plan->dt_mean, plan->dt_next, state->x, m->initial,
+                      m->mass, w->before, state->v, &t->reaction);
     move_rigid_bodies(w, t);
     constraints_place_hanging(&m->constraints, state->v);
     t->reaction += loads_points_work(&m->loads, m->curves, plan->time, state->x, w->before, state->v, plan->dt_mean);

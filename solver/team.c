@@ -25,7 +25,10 @@ typedef struct Member {
     pthread_t handle;
 } Member;
 
-int team_size(const Team *team) { return team->size; }
+int team_size(const Team *team)
+{
+    return team->size;
+}
 
 void team_barrier(Team *team)
 {

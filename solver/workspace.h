@@ -1,4 +1,5 @@
-/* What the step needs beside Model and State: buffers, partial sums, the plan of the cycle. Private to solver/step*.c. */
+/* What the step needs beside Model and State: buffers, partial sums, the plan of the cycle. Private to solver/step*.c.
+ */
 #ifndef BILLOW_WORKSPACE_H
 #define BILLOW_WORKSPACE_H
 
@@ -48,28 +49,28 @@ typedef struct Workspace {
     const KernelTable *kernels;
     StageTimes *times;
     Failure *failure;
-    double *corner;      /* (corner_size + 8) */
-    ChunkSums *chunks;   /* (chunk_count) */
-    NodeSums *node_sums; /* one for each chunk of free nodes, the last for the special ones */
-    int node_chunk_count; /* chunks of free nodes */
+    double *corner;                       /* (corner_size + 8) */
+    ChunkSums *chunks;                    /* (chunk_count) */
+    NodeSums *node_sums;                  /* one for each chunk of free nodes, the last for the special ones */
+    int node_chunk_count;                 /* chunks of free nodes */
     double *bag_pressure, *load_pressure; /* of each pressure set */
     double *set_volume, *set_area;
-    double *source_pressure; /* airbags, then segment loads */
+    double *source_pressure;                                /* airbags, then segment loads */
     double *class_gravity, *class_damping, *class_velocity; /* (class_count x 3) */
-    double *stagnation;  /* SPSF x ambient density by pressure set */
-    double *bag_volume, *bag_area; /* (airbag_count) */
-    double *force;       /* special nodes: pressure and stress forces (node_count x 3); all nodes when emitting */
-    unsigned char *special_kind; /* of the special nodes: 1 hanging, 2 rigid, 0 others (moving - free count) */
-    double *before;      /* velocities of the special nodes at n - 1/2 (node_count x 3) */
+    double *stagnation;                                     /* SPSF x ambient density by pressure set */
+    double *bag_volume, *bag_area;                          /* (airbag_count) */
+    double *force; /* special nodes: pressure and stress forces (node_count x 3); all nodes when emitting */
+    unsigned char *special_kind;     /* of the special nodes: 1 hanging, 2 rigid, 0 others (moving - free count) */
+    double *before;                  /* velocities of the special nodes at n - 1/2 (node_count x 3) */
     double *acceleration, *velocity; /* full-step view, (node_count x 3); NULL until the first emit */
     double *part_kinetic, *part_momentum;
-    double *lane_rate;   /* squared frequency of each padded element (padded_count), filled for the critical chunk */
+    double *lane_rate;    /* squared frequency of each padded element (padded_count), filled for the critical chunk */
     double *kept_history; /* of one chunk */
     int critical_chunk, critical_group; /* with the largest frequency of this cycle */
-    GasPass *gas_pass;   /* partial sums of the implicit gas (node chunks + 1) x (airbag_count) */
-    bool general;        /* body classes or stagnation pressure: the general node loop */
-    bool closed;         /* energies of the last cycle are in the ledger */
-    double element_step; /* stable step of the elements before TSSFAC */
+    GasPass *gas_pass;                  /* partial sums of the implicit gas (node chunks + 1) x (airbag_count) */
+    bool general;                       /* body classes or stagnation pressure: the general node loop */
+    bool closed;                        /* energies of the last cycle are in the ledger */
+    double element_step;                /* stable step of the elements before TSSFAC */
     CyclePlan plan;
 } Workspace;
 
@@ -82,16 +83,16 @@ typedef struct NodeKernels {
 extern const NodeKernels node_kernels_v2, node_kernels_v3, node_kernels_v4;
 
 /* Phases of the cycle. */
-void step_elements(Workspace *w, int thread, int threads);       /* all threads */
-void step_gas(Workspace *w);                                      /* thread 0: sums, gas, pressures, next step */
-void step_gas_pass(Workspace *w, int thread, int threads);        /* all threads: sums of the implicit gas */
-void step_gas_implicit(Workspace *w);                             /* thread 0: pressures at the mean volume */
-void step_nodes(Workspace *w, int thread, int threads);           /* all threads: free nodes */
-void step_special(Workspace *w);                                  /* thread 0: special nodes */
-void step_tick(Workspace *w);                                     /* thread 0: the clock moves on */
-void step_emit(Workspace *w);                                     /* thread 0: full-step view to the hooks */
+void step_elements(Workspace *w, int thread, int threads);          /* all threads */
+void step_gas(Workspace *w);                                        /* thread 0: sums, gas, pressures, next step */
+void step_gas_pass(Workspace *w, int thread, int threads);          /* all threads: sums of the implicit gas */
+void step_gas_implicit(Workspace *w);                               /* thread 0: pressures at the mean volume */
+void step_nodes(Workspace *w, int thread, int threads);             /* all threads: free nodes */
+void step_special(Workspace *w);                                    /* thread 0: special nodes */
+void step_tick(Workspace *w);                                       /* thread 0: the clock moves on */
+void step_emit(Workspace *w);                                       /* thread 0: full-step view to the hooks */
 void step_advance_positions(Workspace *w, int thread, int threads); /* all threads, after an emitting cycle */
-void step_close_energies(Workspace *w);                           /* thread 0: ledger at t_n */
+void step_close_energies(Workspace *w);                             /* thread 0: ledger at t_n */
 void step_fail(Workspace *w, const char *advice, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 #endif
