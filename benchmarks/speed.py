@@ -47,7 +47,7 @@ def measure(build, folder, pattern, shells, threads, cycles, repeats):
     row = {"element": "triangles" if pattern == "diagonal" else "quads 2x2", "elements": best["elements"],
            "threads": threads, "cycles": best["cycles"], "ns_per_element_cycle": best["ns_per_element_cycle"],
            "bytes_per_element": int(memory.group(1)) if memory else 0}
-    row.update({stage: best["timing"][stage] * scale for stage in STAGES})
+    row.update({stage + "_ns": best["timing"][stage] * scale for stage in STAGES})
     return row
 
 
@@ -64,7 +64,7 @@ def write_table(rows):
              "| element | elements | threads | cycles | ns | " + " | ".join(STAGES) + " | bytes per element |",
              "|---|---|---|---|---|" + "---|" * len(STAGES) + "---|"]
     for row in rows:
-        stages = " | ".join(f"{row[stage]:.2f}" for stage in STAGES)
+        stages = " | ".join(f"{row[stage + '_ns']:.2f}" for stage in STAGES)
         lines.append(f"| {row['element']} | {row['elements']} | {row['threads']} | {row['cycles']} | "
                      f"{row['ns_per_element_cycle']:.2f} | {stages} | {row['bytes_per_element']} |")
     (HERE / "speed.md").write_text("\n".join(lines) + "\n", encoding="utf-8")

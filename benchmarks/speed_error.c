@@ -49,9 +49,9 @@ static Problem find_problem(int index)
         mylar.setup.fabric = scene_isotropic(2, true, 8000, 2e10, 0.3);
         mylar.setup.pressure = 5000;
         mylar.setup.size = 0.35;
-        mylar.setup.rise = 0.03;
-        mylar.setup.end = 0.8;
-        mylar.setup.damping = 40;
+        mylar.setup.rise = 0.015;
+        mylar.setup.end = 0.15;
+        mylar.setup.damping = 100;
         mylar.height = 0.16030424; /* the balloon of this stiffness: A14's third row */
         mylar.volume = 0.052273726 / 2;
         return mylar;
@@ -61,9 +61,9 @@ static Problem find_problem(int index)
     square.setup.thickness = 6e-4;
     square.setup.pressure = 5000;
     square.setup.size = 0.5 * 0.848528137423857;
-    square.setup.rise = 0.03;
-    square.setup.end = 0.3;
-    square.setup.damping = 120;
+    square.setup.rise = 0.02;
+    square.setup.end = 0.15;
+    square.setup.damping = 200;
     return square;
 }
 

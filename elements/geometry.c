@@ -188,7 +188,7 @@ static void hourglass_geometry(const double *x, double skew[2], double *aa, doub
     skew[1] = (hb * *aa - ha * ab) / det;
 }
 
-/* In-plane hourglass energy 1/2 (c1 (q.a)^2 + c2 (q.b)^2), c = QH d weight / |a|^4 (eq. E18). */
+/* In-plane hourglass energy 1/2 (c1 (q.a)^2 + c2 (q.b)^2), c = QH d weight / (3 |a|^4) (eq. E18). */
 static void hourglass_moduli(const FabricLaw *law, double weight, double aa, double bb, double c[2])
 {
     c[0] = law->hourglass * law->whole.d11 * weight / (3.0 * aa * aa);

@@ -256,7 +256,7 @@ ALWAYS_INLINE Tensor2 logarithmic_stress(const FabricLaw *law, bool field, bool 
 }
 
 /* Fourth stage: S = J U^-1 t U^-1 on the constant thickness; in the principal axes of C: S11 = t11 l2/l1,
- * S22 = t22 l1/l2, S12 = t12 (eq. F3). */
+ * S22 = t22 l1/l2, S12 = t12 (eq. F4). */
 ALWAYS_INLINE Tensor2 pull_back(Tensor2 t, double cosine, double sine, double narrow, double wide)
 {
     double t_mean = 0.5 * (t.a11 + t.a22), t_half = 0.5 * (t.a11 - t.a22);

@@ -109,7 +109,7 @@ ALWAYS_INLINE void stage_green(int mode, const LawInput *in, const double *restr
     }
 }
 
-/* Damping and the stress-work ledger: dW = (S_n + S_n+1)/2 : (E_n+1 - E_n) (eq. E14, E16). */
+/* Damping and the stress-work ledger: dW = (S_n + S_n+1)/2 : (E_n+1 - E_n) (eq. E12 to E14). */
 ALWAYS_INLINE void stage_history(int mode, const LawInput *in, const double *restrict point,
                                  const double *restrict tail, double *restrict history, PointLanes *restrict p)
 {

@@ -3,14 +3,19 @@
 
 usage: compare_results.py RESULTS_FOLDER EXPECTED.csv
 
-Columns of EXPECTED.csv: quantity, unit, file (a CSV history in the folder), column, statistic (first, last, max, min),
-expected, tolerance (relative, in per cent).
+Columns of EXPECTED.csv: quantity, unit, file (a CSV history in the folder), column, statistic (max, min, or a time: the
+nearest row counts), expected, tolerance (relative, in per cent).
 """
 import csv
 import pathlib
 import sys
 
-STATISTICS = {"first": lambda values: values[0], "last": lambda values: values[-1], "max": max, "min": min}
+
+def statistic(rows, column, name):
+    """The largest or least value of a column, or the one at the time that name gives."""
+    if name in ("max", "min"):
+        return {"max": max, "min": min}[name](float(row[column]) for row in rows)
+    return float(min(rows, key=lambda row: abs(float(row["time"]) - float(name)))[column])
 
 
 def main():
@@ -21,8 +26,8 @@ def main():
     with open(sys.argv[2], newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
             with open(folder / row["file"], newline="", encoding="utf-8") as history:
-                values = [float(line[row["column"]]) for line in csv.DictReader(history)]
-            obtained, expected = STATISTICS[row["statistic"]](values), float(row["expected"])
+                obtained = statistic(list(csv.DictReader(history)), row["column"], row["statistic"])
+            expected = float(row["expected"])
             good = abs(obtained - expected) <= 0.01 * float(row["tolerance"]) * abs(expected)
             name = f"{row['quantity']} [{row['unit']}]"
             print(f"  {name:34}{expected:12.5g}{obtained:12.5g}{row['tolerance']:>8} %" + ("" if good else "  DIFFERS"))

@@ -47,8 +47,9 @@ static void push_rims(Workspace *w)
         surface_cap_force(&m->airbags[i].closure, w->state->x, w->state->gas[i].applied, w->force);
 }
 
-/* Newton's law for the special nodes with their class's gravity and damping; rigid nodes are moved by their bodies. */
-static void accelerate(Workspace *w, NodeSums *t)
+/* Newton's law for the special nodes with their class's gravity and damping; supports and rigid bodies correct it after.
+ * The drag is kept: its work goes with the velocity that comes of it all. */
+static void accelerate(Workspace *w)
 {
     const Model *m = w->model;
     double dt = w->plan.dt_mean;
@@ -60,9 +61,8 @@ static void accelerate(Workspace *w, NodeSums *t)
             double old = v[k], d = w->class_damping[3 * class + k] * dt, reference = w->class_velocity[3 * class + k];
             double force = f[k] * m->inverse_mass[node] + w->class_gravity[3 * class + k];
             v[k] = (old * (1.0 - 0.5 * d) + d * reference + force * dt) / (1.0 + 0.5 * d);
-            if (w->special_kind[node - m->free_count]) continue; /* hanging or rigid: their work is counted elsewhere */
-            double mean = 0.5 * (old + v[k]);
-            t->damping += m->mass[node] * w->class_damping[3 * class + k] * (mean - reference) * mean * dt;
+            w->drag[3 * (node - m->free_count) + k] =
+                m->mass[node] * w->class_damping[3 * class + k] * (0.5 * (old + v[k]) - reference);
         }
     }
 }
@@ -105,6 +105,7 @@ static void count_energy(Workspace *w, NodeSums *t)
             full[k] = old[k] + share * change;
             if (kind) continue;
             t->kinetic += 0.5 * m->mass[node] * full[k] * full[k];
+            t->damping += w->drag[3 * (node - m->free_count) + k] * 0.5 * (old[k] + v[k]) * w->plan.dt_mean;
             t->load_before += m->mass[node] * w->class_gravity[3 * class + k] * old[k];
             t->load_after += m->mass[node] * w->class_gravity[3 * class + k] * v[k];
         }
@@ -130,7 +131,7 @@ void step_special(Workspace *w)
     push_rims(w);
     loads_apply_points(&m->loads, m->curves, plan->time, state->x, w->force);
     constraints_fold_forces(&m->constraints, w->force);
-    accelerate(w, t);
+    accelerate(w);
     constraints_apply(&m->constraints, m->curves, plan->time, plan->dt_mean, plan->dt_next, state->x, m->initial,
                       m->mass, w->before, state->v, &t->reaction);
     move_rigid_bodies(w, t);

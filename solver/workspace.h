@@ -60,6 +60,7 @@ typedef struct Workspace {
     double *stagnation;                                     /* SPSF x ambient density by pressure set */
     double *bag_volume, *bag_area;                          /* (airbag_count) */
     double *force; /* special nodes: pressure and stress forces (node_count x 3); all nodes when emitting */
+    double *drag;        /* mass damping force of the special nodes (moving - free count, x 3) */
     unsigned char *special_kind;     /* of the special nodes: 1 hanging, 2 rigid, 0 others (moving - free count) */
     double *before;                  /* velocities of the special nodes at n - 1/2 (node_count x 3) */
     double *acceleration, *velocity; /* full-step view, (node_count x 3); NULL until the first emit */

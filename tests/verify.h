@@ -24,14 +24,15 @@ typedef struct VerifySample {
 typedef void VerifyProbe(void *user, const Model *model, const State *state, const StepView *view);
 
 typedef struct VerifyOptions {
-    int threads;    /* 0: one */
-    int airbag;     /* index of the watched airbag */
-    int node;       /* deck index of the watched node */
-    int every;      /* record every so many cycles; 0: only the last */
-    int64_t stop;   /* > 0: stop after this cycle */
+    int threads;      /* 0: one */
+    int airbag;       /* index of the watched airbag */
+    int node;         /* deck index of the watched node */
+    int every;        /* record every so many cycles; 0: only the last */
+    int64_t stop;     /* > 0: stop after this cycle */
     double stop_time; /* > 0: stop at the first cycle at or after this time */
-    bool one_point; /* one-point quads */
+    bool one_point;   /* one-point quads */
     bool caps_push_rim;
+    double energy_limit; /* > 0: the run stops beyond this share of energy error in place of the default */
     VerifyProbe *probe;
     void *user;
 } VerifyOptions;
@@ -50,8 +51,8 @@ typedef struct VerifyRun {
     double *x, *v, *f;  /* last emitted cycle, deck order (model.node_count x 3) */
     double *internal_x; /* its positions in the model's own order */
     int64_t cycles;
-    double imbalance;     /* largest |held - given| over the recorded cycles */
-    double energy;        /* largest energy of the run */
+    double imbalance; /* largest |held - given| over the recorded cycles */
+    double energy;    /* largest energy of the run */
 } VerifyRun;
 
 /* Reads and builds. 0, or -1 with the messages in run->diagnostics. run need not be initialised. */
