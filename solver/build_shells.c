@@ -1,5 +1,6 @@
 /* Shells of the deck -> records with nodes, kind, thickness, area and mass; lumped nodal masses. */
 #include <math.h>
+#include <stdio.h>
 
 #include "solver/builder.h"
 #include "solver/coordinates.h"
@@ -7,16 +8,50 @@
 
 static const double degree = 0.017453292519943295;
 
-static int shell_nodes(Builder *b, const ShellDefinition *shell, ShellRecord *record)
+/* A node that shells name and the deck does not define; reported once, at the first shell. */
+typedef struct MissingNode {
+    int node, corner, uses;
+    const ShellDefinition *shell;
+} MissingNode;
+
+typedef LIST(MissingNode) MissingNodes;
+
+static void note_missing(MissingNodes *missing, const ShellDefinition *shell, int corner)
+{
+    for (size_t i = 0; i < missing->count; i++) {
+        if (missing->items[i].node != shell->node[corner]) continue;
+        missing->items[i].uses++;
+        return;
+    }
+    if (missing->count == 200) return; /* the first ones tell what is wrong */
+    if (memory_reserve((void **)&missing->items, &missing->capacity, missing->count + 1, sizeof *missing->items))
+        return;
+    missing->items[missing->count++] = (MissingNode){shell->node[corner], corner, 1, shell};
+}
+
+static void report_missing(Builder *b, MissingNodes *missing)
+{
+    for (size_t i = 0; i < missing->count; i++) {
+        const MissingNode *m = &missing->items[i];
+        char others[64] = "";
+        if (m->uses > 1)
+            snprintf(others, sizeof others, " (and %d more element%s)", m->uses - 1, m->uses == 2 ? "" : "s");
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->shell->source, "*ELEMENT_SHELL",
+                        "element %d%s names node N%d = %d, which the deck does not define; add it under *NODE or "
+                        "correct the element",
+                        m->shell->id, others, m->corner + 1, m->node);
+    }
+    memory_free(missing->items);
+}
+
+static int shell_nodes(Builder *b, const ShellDefinition *shell, ShellRecord *record, MissingNodes *missing)
 {
     int status = 0;
     record->corner_count = shell->node[3] == shell->node[2] ? 3 : 4;
     for (int a = 0; a < 4; a++) {
         record->node[a] = id_map_find(&b->index.nodes, shell->node[a]);
         if (record->node[a] >= 0 || (a == 3 && record->corner_count == 3)) continue;
-        diagnostics_add(b->diagnostics, SEVERITY_ERROR, shell->source, "*ELEMENT_SHELL",
-                        "element %d names node N%d = %d, which the deck does not define", shell->id, a + 1,
-                        shell->node[a]);
+        note_missing(missing, shell, a);
         status = -1;
     }
     return status;
@@ -33,7 +68,7 @@ static double shell_thickness(const ShellDefinition *shell, const SectionShellDe
     return sum / corners;
 }
 
-static int shell_record(Builder *b, const ShellDefinition *shell, ShellRecord *record)
+static int shell_record(Builder *b, const ShellDefinition *shell, ShellRecord *record, MissingNodes *missing)
 {
     record->part = id_map_find(&b->index.parts, shell->part);
     if (record->part < 0) {
@@ -41,7 +76,7 @@ static int shell_record(Builder *b, const ShellDefinition *shell, ShellRecord *r
                         "element %d belongs to part PID = %d, which the deck does not define", shell->id, shell->part);
         return -1;
     }
-    if (shell_nodes(b, shell, record)) return -1;
+    if (shell_nodes(b, shell, record, missing)) return -1;
     const PartRecord *part = &b->parts[record->part];
     if (part->section < 0 || part->material < 0) return -1;
     record->law = part->law;
@@ -74,11 +109,11 @@ static int shell_record(Builder *b, const ShellDefinition *shell, ShellRecord *r
     return 0;
 }
 
-/* Smallest element frame first: zero areas and inverted quads are found when kernel constants are made; here only what
- * mass and surfaces need. */
+/* Zero areas and inverted quads are found when kernel constants are made; here only what mass and surfaces need. */
 int build_shells(Builder *b)
 {
     const Definitions *d = b->definitions;
+    MissingNodes missing = {0};
     int status = 0;
     b->shell_count = (int)d->shells.count;
     b->node_count = (int)d->nodes.count;
@@ -99,8 +134,9 @@ int build_shells(Builder *b)
         for (int k = 0; k < 3; k++) b->x[3 * i + (size_t)k] = d->nodes.items[i].x[k];
     for (size_t i = 0; i < d->shells.count; i++) {
         b->records[i] = (ShellRecord){0};
-        if (shell_record(b, &d->shells.items[i], &b->records[i])) status = -1;
+        if (shell_record(b, &d->shells.items[i], &b->records[i], &missing)) status = -1;
     }
+    report_missing(b, &missing);
     if (status) return -1;
     b->record_count = b->shell_count;
     for (int i = 0; i < b->shell_count; i++) {
