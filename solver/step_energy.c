@@ -54,8 +54,13 @@ void step_close_energies(Workspace *w)
         step_fail(w, "look at the last state written; lower TSSFAC, or check loads there", "an energy is not finite");
         return;
     }
-    /* The full-step velocity is first order in the first cycles of a start from rest: nothing to judge yet. */
-    if (w->state->clock->cycle < BILLOW_UNJUDGED_CYCLES) return;
+    /* The full-step velocity is first order in the first cycles of a start from rest, and while a nearly empty bag's
+     * gas is stiffer than the step resolves: nothing to judge yet. */
+    int64_t cycle = w->state->clock->cycle;
+    if (e->judged_from < BILLOW_UNJUDGED_CYCLES) e->judged_from = BILLOW_UNJUDGED_CYCLES;
+    if (w->plan.implicit_gas && cycle + BILLOW_SETTLING_CYCLES <= BILLOW_SETTLING_LIMIT)
+        e->judged_from = cycle + BILLOW_SETTLING_CYCLES;
+    if (cycle < e->judged_from) return;
     e->ratio = given != 0.0 ? held / given : 1.0;
     e->ratio_min = e->ratio < e->ratio_min ? e->ratio : e->ratio_min;
     e->ratio_max = e->ratio > e->ratio_max ? e->ratio : e->ratio_max;

@@ -11,8 +11,10 @@
 #include "solver/step.h"
 
 enum {
-    BILLOW_NODE_CHUNK = 256,     /* nodes in one fixed partial sum */
-    BILLOW_UNJUDGED_CYCLES = 20, /* at the start, in which the energy ratio is 1 by definition */
+    BILLOW_NODE_CHUNK = 256,      /* nodes in one fixed partial sum */
+    BILLOW_SETTLING_CYCLES = 100, /* after the gas was last stiffer than the step: likewise */
+    BILLOW_SETTLING_LIMIT = 2000, /* but from this cycle on the balance is always judged */
+    BILLOW_UNJUDGED_CYCLES = 20,  /* at the start, in which the energy ratio is 1 by definition */
 };
 
 /* The gas alone may have (w dt)^2 up to this before it is taken implicitly; the stable limit is 4, shared with the
@@ -60,7 +62,7 @@ typedef struct Workspace {
     double *stagnation;                                     /* SPSF x ambient density by pressure set */
     double *bag_volume, *bag_area;                          /* (airbag_count) */
     double *force; /* special nodes: pressure and stress forces (node_count x 3); all nodes when emitting */
-    double *drag;        /* mass damping force of the special nodes (moving - free count, x 3) */
+    double *drag;  /* mass damping force of the special nodes (moving - free count, x 3) */
     unsigned char *special_kind;     /* of the special nodes: 1 hanging, 2 rigid, 0 others (moving - free count) */
     double *before;                  /* velocities of the special nodes at n - 1/2 (node_count x 3) */
     double *acceleration, *velocity; /* full-step view, (node_count x 3); NULL until the first emit */
