@@ -147,11 +147,10 @@ ALWAYS_INLINE void stage_history(int mode, const LawInput *in, const double *res
     }
 }
 
-/* From the natural metric to the natural stress of one point in all lanes. */
+/* From C to the natural stress of one point in all lanes. */
 ALWAYS_INLINE void natural_stress(int mode, const LawInput *in, const double *restrict point,
                                   const double *restrict tail, double *restrict history, PointLanes *restrict p)
 {
-    stage_metric(point, p);
     if (mode & MODE_LOGARITHMIC)
         stage_logarithmic(mode, in, tail, p);
     else

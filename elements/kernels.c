@@ -138,20 +138,34 @@ static int kernel_mode(const ElementGroup *group)
 
 /* ---- triangles ---- */
 
-/* Edges and metric (eq. E1). */
-ALWAYS_INLINE void triangle_metric(Corners *restrict c, Lane *restrict e, PointLanes *restrict p)
+/* Edges (eq. E1). */
+ALWAYS_INLINE void triangle_edges(Corners *restrict c, Lane *restrict e)
+{
+    for (int k = 0; k < 3; k++) {
+#pragma omp simd
+        for (int l = 0; l < LANES; l++) {
+            e[k][l] = c->x[1][k][l] - c->x[0][k][l];
+            e[3 + k][l] = c->x[2][k][l] - c->x[0][k][l];
+        }
+    }
+}
+
+/* C = F^T F with F = e M formed first: the metric of a sliver's edges would lose the square of its aspect in digits. */
+ALWAYS_INLINE void triangle_strain(Lane *restrict e, const double *restrict point, PointLanes *restrict p)
 {
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
-        double e1[3], e2[3];
+        double m11 = point[GEOMETRY_M11 * LANES + l], m12 = point[GEOMETRY_M12 * LANES + l],
+               m21 = point[GEOMETRY_M21 * LANES + l], m22 = point[GEOMETRY_M22 * LANES + l];
+        double f1[3], f2[3];
 #pragma GCC unroll 3
         for (int k = 0; k < 3; k++) {
-            e[k][l] = e1[k] = c->x[1][k][l] - c->x[0][k][l];
-            e[3 + k][l] = e2[k] = c->x[2][k][l] - c->x[0][k][l];
+            f1[k] = m11 * e[k][l] + m21 * e[3 + k][l];
+            f2[k] = m12 * e[k][l] + m22 * e[3 + k][l];
         }
-        p->g11[l] = e1[0] * e1[0] + e1[1] * e1[1] + e1[2] * e1[2];
-        p->g22[l] = e2[0] * e2[0] + e2[1] * e2[1] + e2[2] * e2[2];
-        p->g12[l] = e1[0] * e2[0] + e1[1] * e2[1] + e1[2] * e2[2];
+        p->c11[l] = f1[0] * f1[0] + f1[1] * f1[1] + f1[2] * f1[2];
+        p->c22[l] = f2[0] * f2[0] + f2[1] * f2[1] + f2[2] * f2[2];
+        p->c12[l] = f1[0] * f2[0] + f1[1] * f2[1] + f1[2] * f2[2];
     }
 }
 
@@ -204,7 +218,8 @@ ALWAYS_INLINE void triangle_blocks(int mode, const KernelInput *input, ChunkSums
         const double *tail = point + GEOMETRY_POINT_SIZE * LANES;
         double *history = input->history + group->history_offset + (size_t)block * (size_t)group->history_size * LANES;
         gather_corners(group, block, input->x, 3, &c);
-        triangle_metric(&c, e, &p);
+        triangle_edges(&c, e);
+        triangle_strain(e, point, &p);
         natural_stress(mode, &in, point, tail, history, &p);
         triangle_forces(e, &p, record);
         triangle_area(&c, e, tail + GEOMETRY_SIGN * LANES, input->origin, record + 9, under, area);
@@ -324,6 +339,7 @@ ALWAYS_INLINE void quad_point(int mode, const LawInput *in, Gradients *restrict 
         p.g12[l] = g->ab[l] + xi * g->ah[l] + eta * g->bh[l] + xi * eta * g->hh[l];
         p.energy[l] = p.viscous[l] = 0.0;
     }
+    stage_metric(point, &p);
     natural_stress(mode, in, point, tail, history, &p);
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
@@ -418,6 +434,7 @@ ALWAYS_INLINE void quad_one_blocks(int mode, const KernelInput *input, ChunkSums
             hold2[l] = constant[GEOMETRY_HOURGLASS2 * LANES + l] * r2[l];
             glass[l] = 0.5 * (hold1[l] * r1[l] + hold2[l] * r2[l]);
         }
+        stage_metric(point, &p);
         natural_stress(mode, &in, point, tail, history, &p);
         for (int l = 0; l < LANES; l++) third[l] = (p.p11[l] + p.p22[l]) * (1.0 / 3.0);
         for (int k = 0; k < 3; k++) {
@@ -454,13 +471,12 @@ static void kernel_surface(const KernelInput *input, ChunkSums *sums)
     for (int block = input->first_block; block < input->end_block; block++) {
         Corners c;
         Gradients g;
-        PointLanes unused;
         Lane e[6], under, area, record[QUAD_RECORD] = {{0}};
         const double *sign = group->geometry + (size_t)block * LANES;
         double *out = input->corner + group->corner_offset + (size_t)block * (size_t)size * LANES;
         gather_corners(group, block, input->x, group->corner_count, &c);
         if (triangle) {
-            triangle_metric(&c, e, &unused);
+            triangle_edges(&c, e);
             triangle_area(&c, e, sign, input->origin, record + 9, under, area);
             write_records(TRIANGLE_RECORD, record, out);
         } else {

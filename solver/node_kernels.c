@@ -54,7 +54,8 @@ static void lean_chunk(Workspace *w, int first, int end, NodeSums *sums)
     const CyclePlan plan = w->plan;
     double *x = w->state->x, *v = w->state->v;
     double half_before = 0.5 * plan.dt_before, advance = plan.emit ? 0.0 : plan.dt_next;
-    Vector bag_before = {0}, bag_after = {0}, load_before = {0}, load_after = {0}, kinetic = {0}, compliance = {0};
+    Vector bag_before = {0}, bag_after = {0}, load_before = {0}, load_after = {0}, kinetic = {0}, steps = {0},
+           compliance = {0};
     for (int node = first; node < end; node++) {
         Vector f, s;
         gather_node(w, node, &f, &s);
@@ -72,10 +73,12 @@ static void lean_chunk(Workspace *w, int first, int end, NodeSums *sums)
         load_before += load * before;
         load_after += load * after;
         kinetic += (0.5 * m->mass[node]) * (full * full);
+        steps += (0.5 * m->mass[node]) * (old * now);
         compliance += inverse * (s * s);
         if (plan.emit) keep_view(w, node, a, full, f);
     }
     *sums = (NodeSums){.kinetic = sum3(kinetic),
+                       .kinetic_steps = sum3(steps),
                        .bag_before = sum3(bag_before),
                        .bag_after = sum3(bag_after),
                        .load_before = sum3(load_before),
@@ -117,6 +120,7 @@ static void general_chunk(Workspace *w, int first, int end, NodeSums *sums)
         t.load_after += load * sum3(s * now) + mass * sum3(gravity * now);
         t.damping += (mass * sum3(drag * mean) - stagnation * sum3(s * mean)) * plan.dt_mean;
         t.kinetic += 0.5 * mass * sum3(full * full);
+        t.kinetic_steps += 0.5 * mass * sum3(old * now);
         t.compliance += area2 * inverse;
         if (plan.emit) keep_view(w, node, a, full, f);
     }

@@ -18,6 +18,7 @@ typedef struct Energies {
     double ratio, ratio_min, ratio_max;
     double airbag_half, external_half; /* works up to the half step after t_n */
     double material_damping;           /* share of damping: DAMP of the laws with a stored energy */
+    int64_t lost_cycles;               /* cycles in a row with the balance beyond its limit */
     int64_t judged_from;               /* cycle from which the ratio is formed and judged */
     double mass_damping;               /* the rest */
 } Energies;

@@ -92,12 +92,13 @@ static int allocate(Workspace *w)
     w->kept_history = memory_alloc((size_t)BILLOW_CHUNK * BILLOW_LANES * 4 * HISTORY_POINT_SIZE, sizeof(double));
     w->special_kind = memory_alloc(special + 1, 1);
     w->drag = memory_alloc(3 * special + 1, sizeof(double));
+    w->newton = memory_alloc(3 * special + 1, sizeof(double));
     w->gas_pass = memory_alloc(((size_t)w->node_chunk_count + 1) * bags, sizeof *w->gas_pass);
     void *needed[] = {w->corner,        w->chunks,         w->node_sums,    w->bag_pressure,    w->load_pressure,
                       w->stagnation,    w->set_volume,     w->set_area,     w->source_pressure, w->class_gravity,
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
-                      w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass, w->drag};
+                      w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
     return 0;
@@ -109,7 +110,7 @@ static void release(Workspace *w)
                       w->stagnation,    w->set_volume,     w->set_area,     w->source_pressure, w->class_gravity,
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
-                      w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass, w->drag};
+                      w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
 }
 

@@ -47,8 +47,8 @@ static void push_rims(Workspace *w)
         surface_cap_force(&m->airbags[i].closure, w->state->x, w->state->gas[i].applied, w->force);
 }
 
-/* Newton's law for the special nodes with their class's gravity and damping; supports and rigid bodies correct it after.
- * The drag is kept: its work goes with the velocity that comes of it all. */
+/* Newton's law for the special nodes with their class's gravity and damping; supports and rigid bodies correct it
+ * after. The drag is kept: its work goes with the velocity that comes of it all. */
 static void accelerate(Workspace *w)
 {
     const Model *m = w->model;
@@ -86,6 +86,7 @@ static void move_rigid_bodies(Workspace *w, NodeSums *t)
         t->reaction += work.reaction + work.gravity;
         t->damping += work.damping;
         t->kinetic += state->rigid[i].kinetic;
+        t->kinetic_steps += state->rigid[i].kinetic;
     }
 }
 
@@ -105,6 +106,11 @@ static void count_energy(Workspace *w, NodeSums *t)
             full[k] = old[k] + share * change;
             if (kind) continue;
             t->kinetic += 0.5 * m->mass[node] * full[k] * full[k];
+            t->kinetic_steps += 0.5 * m->mass[node] * old[k] * v[k];
+            double impulse = m->mass[node] * (v[k] - w->newton[3 * (node - m->free_count) + k]);
+            t->support_before += impulse * old[k];
+            /* at the start a prescribed velocity is a jump from rest: its work goes with the mean */
+            t->support_after += impulse * (w->plan.dt_before > 0.0 ? v[k] : 0.5 * (old[k] + v[k]));
             t->damping += w->drag[3 * (node - m->free_count) + k] * 0.5 * (old[k] + v[k]) * w->plan.dt_mean;
             t->load_before += m->mass[node] * w->class_gravity[3 * class + k] * old[k];
             t->load_after += m->mass[node] * w->class_gravity[3 * class + k] * v[k];
@@ -132,8 +138,9 @@ void step_special(Workspace *w)
     loads_apply_points(&m->loads, m->curves, plan->time, state->x, w->force);
     constraints_fold_forces(&m->constraints, w->force);
     accelerate(w);
+    memcpy(w->newton, state->v + first, (size_t)count * sizeof *w->newton);
     constraints_apply(&m->constraints, m->curves, plan->time, plan->dt_mean, plan->dt_next, state->x, m->initial,
-                      m->mass, w->before, state->v, &t->reaction);
+                      m->mass, w->before, state->v, NULL);
     move_rigid_bodies(w, t);
     constraints_place_hanging(&m->constraints, state->v);
     t->reaction += loads_points_work(&m->loads, m->curves, plan->time, state->x, w->before, state->v, plan->dt_mean);

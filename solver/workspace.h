@@ -12,6 +12,7 @@
 
 enum {
     BILLOW_NODE_CHUNK = 256,      /* nodes in one fixed partial sum */
+    BILLOW_LOST_CYCLES = 3,       /* in a row beyond the limit: the balance is lost */
     BILLOW_SETTLING_CYCLES = 100, /* after the gas was last stiffer than the step: likewise */
     BILLOW_SETTLING_LIMIT = 2000, /* but from this cycle on the balance is always judged */
     BILLOW_UNJUDGED_CYCLES = 20,  /* at the start, in which the energy ratio is 1 by definition */
@@ -24,11 +25,13 @@ enum {
 /* Sums over one chunk of nodes; works in force x velocity, to be multiplied by half a step (eq. L3). */
 typedef struct NodeSums {
     double kinetic;                 /* m v.v / 2 at t_n */
+    double kinetic_steps;           /* m v-.v+ / 2, which the balance of a central difference keeps exactly (eq. L5) */
     double bag_before, bag_after;   /* airbag pressure on v at n - 1/2 and at n + 1/2 */
     double load_before, load_after; /* segment loads, point loads and gravity likewise */
     double damping;                 /* energy taken out by mass damping in this step */
-    double reaction;                /* work of supports and prescribed motion in this step */
-    double compliance;              /* sum of |s|^2 / m, s the area vector of the node */
+    double support_before, support_after; /* impulse of supports and prescribed motion on v at n - 1/2 and n + 1/2 */
+    double reaction;                      /* work of point loads and on rigid bodies in this step */
+    double compliance;                    /* sum of |s|^2 / m, s the area vector of the node */
 } NodeSums;
 
 /* One bag's share of a chunk of nodes, for the implicit gas: s the area vector of a node in this bag's pressure. */
@@ -61,8 +64,9 @@ typedef struct Workspace {
     double *class_gravity, *class_damping, *class_velocity; /* (class_count x 3) */
     double *stagnation;                                     /* SPSF x ambient density by pressure set */
     double *bag_volume, *bag_area;                          /* (airbag_count) */
-    double *force; /* special nodes: pressure and stress forces (node_count x 3); all nodes when emitting */
-    double *drag;  /* mass damping force of the special nodes (moving - free count, x 3) */
+    double *force;  /* special nodes: pressure and stress forces (node_count x 3); all nodes when emitting */
+    double *newton; /* velocities of the special nodes before supports act (moving - free count, x 3) */
+    double *drag;   /* mass damping force of the special nodes (moving - free count, x 3) */
     unsigned char *special_kind;     /* of the special nodes: 1 hanging, 2 rigid, 0 others (moving - free count) */
     double *before;                  /* velocities of the special nodes at n - 1/2 (node_count x 3) */
     double *acceleration, *velocity; /* full-step view, (node_count x 3); NULL until the first emit */
