@@ -9,7 +9,9 @@ picture=build/driver-bag.png
 
 sh scripts/setup.sh
 cmake --preset release
-cmake --build --preset release --target billow make_deck
+quiet=
+[ -t 1 ] || quiet="-- --quiet"
+cmake --build --preset release --target billow make_deck $quiet
 build/release/make_deck driver-bag >"$deck"
 build/release/billow run "$deck" -o "$results"
 /usr/bin/python3 examples/render.py shape "$results" -o "$picture" --times 0 0.01 0.02 0.04 ||

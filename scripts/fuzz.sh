@@ -9,11 +9,11 @@ seconds=${1:-60}
 
 sh scripts/setup.sh --ci
 cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz
+cmake --build --preset fuzz -- --quiet
 mkdir -p build/fuzz/corpus build/fuzz/empty
 # The keywords, so that the fuzzer needs not guess them.
 sed -n 's/\\//g; s/^###* \(\*[A-Z_]*\).*/"\1"/p; s/^| \(\*[A-Z_]*\) |.*/"\1"/p' docs/keywords.md >build/fuzz/keywords.dict
 # *INCLUDE finds what lies in the working directory: nothing
 cd build/fuzz/empty
-exec ../tests/fuzz_deck -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=20000 -print_final_stats=1 \
+exec ../tests/fuzz_deck -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=20000 -verbosity=0 -print_final_stats=1 \
     -dict=../keywords.dict -artifact_prefix=../ ../corpus ../../../tests/corpus

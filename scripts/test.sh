@@ -7,8 +7,10 @@ set -u
 cd "$(dirname "$0")/.." || exit 1
 preset=${1:-release}
 [ $# -eq 0 ] || shift
+quiet=
+[ -t 1 ] || quiet="-- --quiet" # a log needs no line for each file that compiled
 
-if ! { sh scripts/setup.sh && cmake --preset "$preset" && cmake --build --preset "$preset"; }; then
+if ! { sh scripts/setup.sh && cmake --preset "$preset" && cmake --build --preset "$preset" $quiet; }; then
     echo "test.sh: the build failed; see above" >&2
     echo "0 passed, 1 failed"
     exit 1
