@@ -98,7 +98,8 @@ static int allocate(Workspace *w)
                       w->stagnation,    w->set_volume,     w->set_area,     w->source_pressure, w->class_gravity,
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
-                      w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag};
+                      w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
+                      w->newton};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
     return 0;
@@ -110,7 +111,8 @@ static void release(Workspace *w)
                       w->stagnation,    w->set_volume,     w->set_area,     w->source_pressure, w->class_gravity,
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
-                      w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag};
+                      w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
+                      w->newton};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
 }
 
