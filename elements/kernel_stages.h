@@ -1,16 +1,14 @@
-/* Stages of the element kernels over one block: metric -> stress in natural directions, forces -> corner records.
+/* Stages of the element kernels: metric -> stress in natural directions, for several packs of points at a time.
  *
- * Every stage is a vector loop of its own over the block's lanes: the roots and divisions of one lane wait for each
- * other, short loops let the processor work on several lanes' at a time. Included by elements/kernels.c alone. */
+ * Each stage is a loop of its own over the packs: the roots and divisions of one pack wait for each other, so that the
+ * processor needs several packs' at a time. Included by elements/kernels.c alone. */
 #ifndef BILLOW_KERNEL_STAGES_H
 #define BILLOW_KERNEL_STAGES_H
 
 #include "elements/kernel_law.h"
 #include "elements/kernels.h"
 
-enum { LANES = BILLOW_LANES };
-
-typedef double Lane[LANES];
+enum { LANES = BILLOW_LANES, PACKS = BILLOW_LANES / PACK_WIDTH };
 
 /* Law constants of one call. */
 typedef struct LawInput {
@@ -20,7 +18,7 @@ typedef struct LawInput {
     double count_work; /* 1, or 0 when histories are only filled */
 } LawInput;
 
-/* What a kernel does besides the law; a constant of each vector loop, so that the loop has no branch. */
+/* What a kernel does besides the law; a constant of each kernel, so that its loops have no branch. */
 enum {
     MODE_LOGARITHMIC = 1, /* else Green */
     MODE_TENSION_FIELD = 2,
@@ -28,145 +26,109 @@ enum {
     MODE_HISTORY = 8, /* strain and stress of the last step are kept: stress-work ledger, damping */
 };
 
-/* Metric of a point in natural directions, and the stress that answers it: weight x M S M^T. */
-typedef struct PointLanes {
-    Lane g11, g22, g12;
-    Lane c11, c22, c12; /* right Cauchy-Green tensor in material axes */
-    Lane s11, s22, s12; /* second Piola-Kirchhoff stress */
-    Lane p11, p22, p12; /* weight x M S M^T */
-    Lane energy, viscous, rate;
-} PointLanes;
+/* Where the constants and histories of one pack of points lie. */
+typedef struct PointPlace {
+    const double *point, *tail; /* elements/kernels.h */
+    double *history;
+} PointPlace;
 
-/* C = M^T g M (eq. E4). */
-ALWAYS_INLINE void stage_metric(const double *restrict point, PointLanes *restrict p)
+/* A pack of points: what comes in and what the stages leave. */
+typedef struct PointPack {
+    PackTensor c; /* right Cauchy-Green tensor in material axes */
+    PackTensor p; /* weight x M S M^T, the stress in natural directions */
+    Pack energy, viscous, rate;
+} PointPack;
+
+ALWAYS_INLINE Pack lane_values(const double *from, int quantity)
 {
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        double m11 = point[GEOMETRY_M11 * LANES + l], m12 = point[GEOMETRY_M12 * LANES + l],
-               m21 = point[GEOMETRY_M21 * LANES + l], m22 = point[GEOMETRY_M22 * LANES + l];
-        double g11 = p->g11[l], g22 = p->g22[l], g12 = p->g12[l];
-        double a1 = m11 * g11 + m21 * g12, a2 = m11 * g12 + m21 * g22;
-        double b1 = m12 * g11 + m22 * g12, b2 = m12 * g12 + m22 * g22;
-        p->c11[l] = m11 * a1 + m21 * a2;
-        p->c22[l] = m12 * b1 + m22 * b2;
-        p->c12[l] = m11 * b1 + m21 * b2;
-    }
+    return pack_load(from + (ptrdiff_t)quantity * LANES);
 }
 
-/* FORM 0, 1 and MAT_ELASTIC (eq. F1 to F7). */
-ALWAYS_INLINE void stage_logarithmic(int mode, const LawInput *in, const double *restrict tail, PointLanes *restrict p)
+/* C = M^T g M (eq. E4). */
+ALWAYS_INLINE PackTensor material_metric(const double *point, PackTensor g)
 {
-    Lane cosine, sine, c1, c2, narrow, wide, t11, t22, t12;
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        Tensor2 c = {p->c11[l], p->c22[l], p->c12[l]};
-        StretchFrame f = stretch_frame(c);
-        cosine[l] = f.cosine;
-        sine[l] = f.sine;
-        c1[l] = f.c1;
-        c2[l] = f.c2;
-        narrow[l] = f.narrow;
-        wide[l] = f.wide;
-    }
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        Tensor2 e = logarithmic_strain(cosine[l], sine[l], c1[l], c2[l]);
-        t11[l] = e.a11;
-        t22[l] = e.a22;
-        t12[l] = e.a12;
-    }
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        Tensor2 e = {t11[l], t22[l], t12[l]};
-        double major, slack;
-        Tensor2 t = logarithmic_stress(&in->law, mode & MODE_TENSION_FIELD, mode & MODE_LINER, e, &major, &slack);
-        /* a slack element keeps its reference frequency, or what its liner has: it may be taut in the next cycle */
-        double stretch = slack > 0.0 ? larger(1.0, in->law.slack_share * wide[l]) : wide[l];
-        p->rate[l] = stretch * tail[GEOMETRY_RATE * LANES + l] +
-                     larger(major, 0.0) * wide[l] * tail[GEOMETRY_STRESS_RATE * LANES + l];
-        Tensor2 s = pull_back(t, cosine[l], sine[l], narrow[l], wide[l]);
-        p->s11[l] = s.a11;
-        p->s22[l] = s.a22;
-        p->s12[l] = s.a12;
-    }
+    Pack m11 = lane_values(point, GEOMETRY_M11), m12 = lane_values(point, GEOMETRY_M12),
+         m21 = lane_values(point, GEOMETRY_M21), m22 = lane_values(point, GEOMETRY_M22);
+    Pack a1 = m11 * g.a11 + m21 * g.a12, a2 = m11 * g.a12 + m21 * g.a22;
+    Pack b1 = m12 * g.a11 + m22 * g.a12, b2 = m12 * g.a12 + m22 * g.a22;
+    PackTensor c = {m11 * a1 + m21 * a2, m12 * b1 + m22 * b2, m11 * b1 + m21 * b2};
+    return c;
+}
+
+/* Second Piola-Kirchhoff stress to natural directions: weight x M S M^T. */
+ALWAYS_INLINE PackTensor natural_directions(const double *point, PackTensor s)
+{
+    Pack m11 = lane_values(point, GEOMETRY_M11), m12 = lane_values(point, GEOMETRY_M12),
+         m21 = lane_values(point, GEOMETRY_M21), m22 = lane_values(point, GEOMETRY_M22),
+         weight = lane_values(point, GEOMETRY_WEIGHT);
+    Pack s11 = weight * s.a11, s22 = weight * s.a22, s12 = weight * s.a12;
+    Pack a1 = m11 * s11 + m12 * s12, a2 = m11 * s12 + m12 * s22;
+    Pack b1 = m21 * s11 + m22 * s12, b2 = m21 * s12 + m22 * s22;
+    PackTensor p = {m11 * a1 + m12 * a2, m21 * b1 + m22 * b2, m11 * b1 + m12 * b2};
+    return p;
+}
+
+/* FORM 0, 1 and MAT_ELASTIC (eq. F1 to F7), from the state of the strain. */
+ALWAYS_INLINE PackTensor stress_logarithmic(int mode, const LawInput *in, const PointPlace *place,
+                                            const LogarithmicState *f, PointPack *p)
+{
+    Pack major, stretch = f->wide;
+    PackTensor t = logarithmic_stress(&in->law, mode & MODE_TENSION_FIELD, mode & MODE_LINER, f->strain, &major);
+    /* a slack element keeps its reference frequency, or what its liner has: it may be taut in the next cycle */
+    if (mode & MODE_TENSION_FIELD)
+        stretch = pack_where_positive(major, f->wide, pack_larger(pack_of(1.0), in->law.slack_share * f->wide));
+    p->rate = stretch * lane_values(place->tail, GEOMETRY_RATE) +
+              pack_larger(major, pack_of(0.0)) * f->wide * lane_values(place->tail, GEOMETRY_STRESS_RATE);
+    return pull_back(t, p->c, f->jacobian, f->pull);
 }
 
 /* FORM 2 (eq. F5, F8 to F11). */
-ALWAYS_INLINE void stage_green(int mode, const LawInput *in, const double *restrict point, const double *restrict tail,
-                               PointLanes *restrict p)
+ALWAYS_INLINE PackTensor stress_green(int mode, const LawInput *in, const PointPlace *place, PointPack *p)
 {
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        Tensor2 c = {p->c11[l], p->c22[l], p->c12[l]};
-        GreenResult r =
-            green_stress(&in->law, &in->compliance, mode & MODE_TENSION_FIELD, mode & MODE_LINER, green_strain(c));
-        p->s11[l] = r.stress.a11;
-        p->s22[l] = r.stress.a22;
-        p->s12[l] = r.stress.a12;
-        p->energy[l] = point[GEOMETRY_WEIGHT * LANES + l] * r.energy;
-        p->rate[l] = major_stretch_squared(c) * tail[GEOMETRY_RATE * LANES + l] +
-                     r.tension * tail[GEOMETRY_STRESS_RATE * LANES + l];
-    }
+    GreenResult r =
+        green_stress(&in->law, &in->compliance, mode & MODE_TENSION_FIELD, mode & MODE_LINER, green_strain(p->c));
+    p->energy = lane_values(place->point, GEOMETRY_WEIGHT) * r.energy;
+    p->rate = major_value(p->c) * lane_values(place->tail, GEOMETRY_RATE) +
+              r.tension * lane_values(place->tail, GEOMETRY_STRESS_RATE);
+    return r.stress;
 }
 
 /* Damping and the stress-work ledger: dW = (S_n + S_n+1)/2 : (E_n+1 - E_n) (eq. E12 to E14). */
-ALWAYS_INLINE void stage_history(int mode, const LawInput *in, const double *restrict point,
-                                 const double *restrict tail, double *restrict history, PointLanes *restrict p)
+ALWAYS_INLINE PackTensor keep_history(int mode, const LawInput *in, const PointPlace *place, PackTensor s, PointPack *p)
 {
+    double *h = place->history;
+    PackTensor e = green_strain(p->c);
+    PackTensor change = {e.a11 - lane_values(h, 0), e.a22 - lane_values(h, 1), e.a12 - lane_values(h, 2)};
     if (in->law.damping > 0.0) {
-#pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            Tensor2 c = {p->c11[l], p->c22[l], p->c12[l]}, e = green_strain(c);
-            double factor = tail[GEOMETRY_VISCOSITY * LANES + l] * in->inverse_step;
-            Tensor2 rate = {factor * (e.a11 - history[0 * LANES + l]), factor * (e.a22 - history[1 * LANES + l]),
-                            factor * (e.a12 - history[2 * LANES + l])};
-            Tensor2 viscous = apply_moduli(&in->law.whole, rate);
-            p->s11[l] += viscous.a11;
-            p->s22[l] += viscous.a22;
-            p->s12[l] += viscous.a12;
-        }
+        Pack factor = lane_values(place->tail, GEOMETRY_VISCOSITY) * in->inverse_step;
+        PackTensor rate = {factor * change.a11, factor * change.a22, factor * change.a12};
+        s = add_tensors(s, apply_moduli(&in->law.whole, rate));
     }
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        Tensor2 c = {p->c11[l], p->c22[l], p->c12[l]}, e = green_strain(c);
-        Tensor2 de = {e.a11 - history[0 * LANES + l], e.a22 - history[1 * LANES + l], e.a12 - history[2 * LANES + l]};
-        Tensor2 mean = {0.5 * (p->s11[l] + history[3 * LANES + l]), 0.5 * (p->s22[l] + history[4 * LANES + l]),
-                        0.5 * (p->s12[l] + history[5 * LANES + l])};
-        double work = in->count_work * (point[GEOMETRY_WEIGHT * LANES + l] * contract(mean, de));
-        if (mode & MODE_LOGARITHMIC) {
-            p->energy[l] = work;
-        } else {
-            p->viscous[l] = work; /* less the stored energy's change this is what was dissipated */
-        }
-        history[0 * LANES + l] = e.a11;
-        history[1 * LANES + l] = e.a22;
-        history[2 * LANES + l] = e.a12;
-        history[3 * LANES + l] = p->s11[l];
-        history[4 * LANES + l] = p->s22[l];
-        history[5 * LANES + l] = p->s12[l];
-    }
+    PackTensor mean = {0.5 * (s.a11 + lane_values(h, 3)), 0.5 * (s.a22 + lane_values(h, 4)),
+                       0.5 * (s.a12 + lane_values(h, 5))};
+    Pack work = in->count_work * (lane_values(place->point, GEOMETRY_WEIGHT) * contract(mean, change));
+    if (mode & MODE_LOGARITHMIC)
+        p->energy = work;
+    else
+        p->viscous = work; /* less the stored energy's change this is what was dissipated */
+    const Pack kept[HISTORY_POINT_SIZE] = {e.a11, e.a22, e.a12, s.a11, s.a22, s.a12};
+    for (int i = 0; i < HISTORY_POINT_SIZE; i++) pack_store(h + (ptrdiff_t)i * LANES, kept[i]);
+    return s;
 }
 
-/* From C to the natural stress of one point in all lanes. */
-ALWAYS_INLINE void natural_stress(int mode, const LawInput *in, const double *restrict point,
-                                  const double *restrict tail, double *restrict history, PointLanes *restrict p)
+/* From C to the natural stress of count packs of points. */
+ALWAYS_INLINE void natural_stress(int mode, const LawInput *in, int count, const PointPlace *place,
+                                  PointPack *restrict p)
 {
+    LogarithmicState state[PACKS > 4 ? PACKS : 4];
     if (mode & MODE_LOGARITHMIC)
-        stage_logarithmic(mode, in, tail, p);
-    else
-        stage_green(mode, in, point, tail, p);
-    if (mode & MODE_HISTORY) stage_history(mode, in, point, tail, history, p);
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        double m11 = point[GEOMETRY_M11 * LANES + l], m12 = point[GEOMETRY_M12 * LANES + l],
-               m21 = point[GEOMETRY_M21 * LANES + l], m22 = point[GEOMETRY_M22 * LANES + l],
-               weight = point[GEOMETRY_WEIGHT * LANES + l];
-        double s11 = weight * p->s11[l], s22 = weight * p->s22[l], s12 = weight * p->s12[l];
-        double a1 = m11 * s11 + m12 * s12, a2 = m11 * s12 + m12 * s22;
-        double b1 = m21 * s11 + m22 * s12, b2 = m21 * s12 + m22 * s22;
-        p->p11[l] = m11 * a1 + m12 * a2;
-        p->p22[l] = m21 * b1 + m22 * b2;
-        p->p12[l] = m11 * b1 + m12 * b2;
+        for (int i = 0; i < count; i++) state[i] = logarithmic_state(p[i].c);
+    for (int i = 0; i < count; i++) {
+        p[i].viscous = pack_of(0.0);
+        PackTensor s = mode & MODE_LOGARITHMIC ? stress_logarithmic(mode, in, &place[i], &state[i], &p[i])
+                                               : stress_green(mode, in, &place[i], &p[i]);
+        if (mode & MODE_HISTORY) s = keep_history(mode, in, &place[i], s, &p[i]);
+        p[i].p = natural_directions(place[i].point, s);
     }
 }
 

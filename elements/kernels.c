@@ -1,80 +1,62 @@
 /* Element kernels for one instruction set: this file is compiled once per set, with BILLOW_KERNEL_TABLE naming its
  * table.
  *
- * A kernel walks over whole blocks of BILLOW_LANES elements: gather the corners, metric, stress (kernel_stages.h),
- * corner records. Sums run over the lanes in order. Equations: docs/theory.md, Elements. */
+ * A kernel walks over blocks of BILLOW_LANES elements, a pack of lanes at a time: gather the corners, metric, stress
+ * (kernel_stages.h), corner records. Equations: docs/theory.md, Elements. */
 #include "elements/kernels.h"
 
 #include "elements/kernel_stages.h"
+#include "elements/kernel_transpose.h"
 
 extern const KernelTable BILLOW_KERNEL_TABLE;
 
-/* Corner coordinates of one block: [corner][axis]. */
-typedef struct Corners {
-    Lane x[4][3];
-} Corners;
-
-ALWAYS_INLINE void gather_corners(const ElementGroup *group, int block, const double *restrict x, int corners,
-                                  Corners *restrict c)
-{
-    const int32_t *node = group->node + (size_t)block * (size_t)corners * LANES;
-    for (int a = 0; a < corners; a++) {
-        for (int l = 0; l < LANES; l++) {
-            const double *p = x + 3 * (ptrdiff_t)node[a * LANES + l];
-            c->x[a][0][l] = p[0];
-            c->x[a][1][l] = p[1];
-            c->x[a][2][l] = p[2];
-        }
-    }
-}
-
-/* Lane values to records of size values per element: forces of the corners and area vectors. */
-ALWAYS_INLINE void write_records(int size, Lane *restrict from, double *restrict record)
-{
-    for (int l = 0; l < LANES; l++)
-#pragma GCC unroll 24
-        for (int k = 0; k < size; k++) record[size * l + k] = from[k][l];
-}
-
 /* Eight partial sums, then a tree: the same order in every instruction set. */
-ALWAYS_INLINE double sum_lanes(const double *restrict lane)
+enum { SUM_WIDTH = 8, SUM_PACKS = SUM_WIDTH / PACK_WIDTH };
+
+typedef struct PackSum {
+    Pack part[SUM_PACKS];
+} PackSum;
+
+typedef struct PackSums {
+    PackSum volume, area, energy, viscous, hourglass;
+    Pack rate;
+} PackSums;
+
+ALWAYS_INLINE double total(const PackSum *sum)
 {
-    double part[8] = {0};
-    for (int i = 0; i < LANES; i += 8)
-#pragma omp simd
-        for (int j = 0; j < 8; j++) part[j] += lane[i + j];
+    double part[SUM_WIDTH];
+    for (int i = 0; i < SUM_WIDTH; i++) part[i] = sum->part[i / PACK_WIDTH][i % PACK_WIDTH];
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-/* The largest of the lanes and a number; not a number wins. */
-ALWAYS_INLINE double largest_lane(const double *restrict lane, double largest)
+ALWAYS_INLINE double largest(Pack pack)
 {
-    double part[8];
-    for (int j = 0; j < 8; j++) part[j] = lane[j];
-    for (int i = 8; i < LANES; i += 8)
-#pragma omp simd
-        for (int j = 0; j < 8; j++) part[j] = part[j] >= lane[i + j] ? part[j] : lane[i + j];
-    for (int j = 0; j < 8; j++) largest = part[j] > largest || part[j] != part[j] ? part[j] : largest;
-    return largest;
+    double value = pack[0];
+    for (int i = 1; i < PACK_WIDTH; i++) value = pack[i] > value ? pack[i] : value;
+    return value;
 }
 
-static void copy_rates(const KernelInput *input, int block, const double *rate)
+ALWAYS_INLINE void finish_sums(const PackSums *packs, ChunkSums *sums)
 {
-    double *out = input->lane_rate + input->group->first_element + (ptrdiff_t)block * LANES;
-    for (int l = 0; l < LANES; l++) out[l] = rate[l];
+    sums->volume += total(&packs->volume);
+    sums->area += total(&packs->area);
+    sums->energy += total(&packs->energy);
+    sums->viscous += total(&packs->viscous);
+    sums->hourglass += total(&packs->hourglass);
+    double rate = largest(packs->rate);
+    sums->rate = rate > sums->rate ? rate : sums->rate;
 }
 
-/* Sums of one block: volume under it and area from the area vectors s = sum over corners of the shares. */
-ALWAYS_INLINE void sum_block(const KernelInput *input, int block, const double *under, const double *area,
-                             const PointLanes *p, ChunkSums *sums)
+/* What a point says to the sums of its chunk; i: number of the pack in its block. */
+ALWAYS_INLINE void sum_point(const KernelInput *input, int block, int i, const PointPack *p, PackSums *sums)
 {
-    sums->volume += sum_lanes(under);
-    sums->area += sum_lanes(area);
-    if (!p) return;
-    sums->energy += sum_lanes(p->energy);
-    sums->viscous += sum_lanes(p->viscous);
-    sums->rate = largest_lane(p->rate, sums->rate);
-    if (input->lane_rate) copy_rates(input, block, p->rate);
+    sums->energy.part[i % SUM_PACKS] += p->energy;
+    sums->viscous.part[i % SUM_PACKS] += p->viscous;
+    sums->rate = pack_larger(p->rate, sums->rate);
+    if (input->lane_rate) {
+        double *rate = input->lane_rate + input->group->first_element + (ptrdiff_t)block * LANES + i * PACK_WIDTH;
+        for (int l = 0; l < PACK_WIDTH; l++) rate[l] = p->rate[l];
+    }
 }
 
 static LawInput make_law_input(const KernelInput *input)
@@ -136,97 +118,115 @@ static int kernel_mode(const ElementGroup *group)
         break;                                                                                                         \
     }
 
+/* Constants, histories and records of one pack of elements. */
+typedef struct ElementPlace {
+    const int32_t *node; /* of the first corner; the next corner's are LANES further */
+    const double *geometry;
+    double *history, *record;
+} ElementPlace;
+
+ALWAYS_INLINE ElementPlace find_place(const KernelInput *input, int block, int pack, int corners, int record_size)
+{
+    const ElementGroup *group = input->group;
+    ptrdiff_t lane = (ptrdiff_t)pack * PACK_WIDTH, first = (ptrdiff_t)block * LANES;
+    ElementPlace place = {.node = group->node + first * corners + lane,
+                          .geometry = group->geometry + first * group->geometry_size + lane,
+                          .history = input->history + group->history_offset + first * group->history_size + lane,
+                          .record = input->corner + group->corner_offset + (first + lane) * record_size};
+    return place;
+}
+
+ALWAYS_INLINE void write_record(int size, const Pack *from, double *record)
+{
+#pragma GCC unroll 6
+    for (int k = 0; k < size; k += 4) scatter_four(size, from + k, record + k);
+}
+
+ALWAYS_INLINE Pack dot(const Pack a[3], const Pack b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /* ---- triangles ---- */
 
-/* Edges (eq. E1). */
-ALWAYS_INLINE void triangle_edges(Corners *restrict c, Lane *restrict e)
-{
-    for (int k = 0; k < 3; k++) {
-#pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            e[k][l] = c->x[1][k][l] - c->x[0][k][l];
-            e[3 + k][l] = c->x[2][k][l] - c->x[0][k][l];
-        }
-    }
-}
+/* Edges from the first corner (eq. E1). */
+typedef struct TrianglePack {
+    Pack e1[3], e2[3];
+    Pack record[TRIANGLE_RECORD];
+} TrianglePack;
 
 /* C = F^T F with F = e M formed first: the metric of a sliver's edges would lose the square of its aspect in digits. */
-ALWAYS_INLINE void triangle_strain(Lane *restrict e, const double *restrict point, PointLanes *restrict p)
+ALWAYS_INLINE PackTensor triangle_metric(const double *point, const TrianglePack *t)
 {
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        double m11 = point[GEOMETRY_M11 * LANES + l], m12 = point[GEOMETRY_M12 * LANES + l],
-               m21 = point[GEOMETRY_M21 * LANES + l], m22 = point[GEOMETRY_M22 * LANES + l];
-        double f1[3], f2[3];
+    Pack m11 = lane_values(point, GEOMETRY_M11), m12 = lane_values(point, GEOMETRY_M12),
+         m21 = lane_values(point, GEOMETRY_M21), m22 = lane_values(point, GEOMETRY_M22), f1[3], f2[3];
 #pragma GCC unroll 3
-        for (int k = 0; k < 3; k++) {
-            f1[k] = m11 * e[k][l] + m21 * e[3 + k][l];
-            f2[k] = m12 * e[k][l] + m22 * e[3 + k][l];
-        }
-        p->c11[l] = f1[0] * f1[0] + f1[1] * f1[1] + f1[2] * f1[2];
-        p->c22[l] = f2[0] * f2[0] + f2[1] * f2[1] + f2[2] * f2[2];
-        p->c12[l] = f1[0] * f2[0] + f1[1] * f2[1] + f1[2] * f2[2];
+    for (int k = 0; k < 3; k++) {
+        f1[k] = m11 * t->e1[k] + m21 * t->e2[k];
+        f2[k] = m12 * t->e1[k] + m22 * t->e2[k];
     }
+    PackTensor c = {dot(f1, f1), dot(f2, f2), dot(f1, f2)};
+    return c;
 }
 
-/* Area vector share S/3 per corner (eq. E8), volume under the facet. */
-ALWAYS_INLINE void triangle_area(Corners *restrict c, Lane *restrict e, const double *restrict sign,
-                                 const double *restrict origin, Lane *restrict share, double *restrict under,
-                                 double *restrict area)
+/* Gathers the corners; edges, area vector share S/3 per corner (eq. E8), volume under the facet, area. */
+ALWAYS_INLINE void triangle_area(const KernelInput *input, const ElementPlace *place, Pack sign, int i, TrianglePack *t,
+                                 PackSums *sums)
 {
-    const double o0 = origin[0], o1 = origin[1], o2 = origin[2];
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        double sixth = (1.0 / 6.0) * sign[l];
-        double s0 = sixth * (e[1][l] * e[5][l] - e[2][l] * e[4][l]),
-               s1 = sixth * (e[2][l] * e[3][l] - e[0][l] * e[5][l]),
-               s2 = sixth * (e[0][l] * e[4][l] - e[1][l] * e[3][l]);
-        share[0][l] = s0;
-        share[1][l] = s1;
-        share[2][l] = s2;
-        under[l] = (c->x[0][0][l] - o0) * s0 + (c->x[0][1][l] - o1) * s1 + (c->x[0][2][l] - o2) * s2;
-        area[l] = 3.0 * sqrt(s0 * s0 + s1 * s1 + s2 * s2);
+    Pack x0[3], x1[3], x2[3];
+    gather_nodes(place->node, input->x, x0);
+    gather_nodes(place->node + LANES, input->x, x1);
+    gather_nodes(place->node + 2 * LANES, input->x, x2);
+#pragma GCC unroll 3
+    for (int k = 0; k < 3; k++) {
+        t->e1[k] = x1[k] - x0[k];
+        t->e2[k] = x2[k] - x0[k];
+        x0[k] -= input->origin[k];
     }
+    Pack sixth = (1.0 / 6.0) * sign, *share = t->record + 9;
+    share[0] = sixth * (t->e1[1] * t->e2[2] - t->e1[2] * t->e2[1]);
+    share[1] = sixth * (t->e1[2] * t->e2[0] - t->e1[0] * t->e2[2]);
+    share[2] = sixth * (t->e1[0] * t->e2[1] - t->e1[1] * t->e2[0]);
+    sums->volume.part[i % SUM_PACKS] += dot(x0, share);
+    sums->area.part[i % SUM_PACKS] += 3.0 * pack_root(dot(share, share));
 }
 
 /* Corner forces: f2 = -(p11 e1 + p12 e2), f3 = -(p12 e1 + p22 e2), f1 the rest (eq. E6). */
-ALWAYS_INLINE void triangle_forces(Lane *restrict e, const PointLanes *restrict p, Lane *restrict f)
+ALWAYS_INLINE void triangle_forces(const PackTensor *p, TrianglePack *t)
 {
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
 #pragma GCC unroll 3
-        for (int k = 0; k < 3; k++) {
-            double f2 = -(p->p11[l] * e[k][l] + p->p12[l] * e[3 + k][l]),
-                   f3 = -(p->p12[l] * e[k][l] + p->p22[l] * e[3 + k][l]);
-            f[k][l] = -(f2 + f3);
-            f[3 + k][l] = f2;
-            f[6 + k][l] = f3;
-        }
+    for (int k = 0; k < 3; k++) {
+        Pack f2 = p->a11 * t->e1[k] + p->a12 * t->e2[k], f3 = p->a12 * t->e1[k] + p->a22 * t->e2[k];
+        t->record[k] = f2 + f3;
+        t->record[3 + k] = -f2;
+        t->record[6 + k] = -f3;
     }
 }
 
 ALWAYS_INLINE void triangle_blocks(int mode, const KernelInput *input, ChunkSums *sums)
 {
-    const ElementGroup *group = input->group;
     const LawInput in = make_law_input(input);
-    PointLanes p;
-    for (int l = 0; l < LANES; l++) p.energy[l] = p.viscous[l] = 0.0;
+    PackSums packs = {0};
     for (int block = input->first_block; block < input->end_block; block++) {
-        Corners c;
-        Lane e[6], record[TRIANGLE_RECORD], under, area;
-        const double *point = group->geometry + (size_t)block * (size_t)group->geometry_size * LANES;
-        const double *tail = point + GEOMETRY_POINT_SIZE * LANES;
-        double *history = input->history + group->history_offset + (size_t)block * (size_t)group->history_size * LANES;
-        gather_corners(group, block, input->x, 3, &c);
-        triangle_edges(&c, e);
-        triangle_strain(e, point, &p);
-        natural_stress(mode, &in, point, tail, history, &p);
-        triangle_forces(e, &p, record);
-        triangle_area(&c, e, tail + GEOMETRY_SIGN * LANES, input->origin, record + 9, under, area);
-        write_records(TRIANGLE_RECORD, record,
-                      input->corner + group->corner_offset + (size_t)block * TRIANGLE_RECORD * LANES);
-        sum_block(input, block, under, area, &p, sums);
+        TrianglePack t[PACKS];
+        PointPack p[PACKS];
+        PointPlace point[PACKS];
+        ElementPlace place[PACKS];
+        for (int i = 0; i < PACKS; i++) {
+            place[i] = find_place(input, block, i, 3, TRIANGLE_RECORD);
+            const double *tail = place[i].geometry + GEOMETRY_POINT_SIZE * LANES;
+            point[i] = (PointPlace){place[i].geometry, tail, place[i].history};
+            triangle_area(input, &place[i], lane_values(tail, GEOMETRY_SIGN), i, &t[i], &packs);
+            p[i].c = triangle_metric(place[i].geometry, &t[i]);
+        }
+        natural_stress(mode, &in, PACKS, point, p);
+        for (int i = 0; i < PACKS; i++) {
+            triangle_forces(&p[i].p, &t[i]);
+            write_record(TRIANGLE_RECORD, t[i].record, place[i].record);
+            sum_point(input, block, i, &p[i], &packs);
+        }
     }
+    finish_sums(&packs, sums);
 }
 
 static void kernel_triangle(const KernelInput *input, ChunkSums *sums)
@@ -238,220 +238,204 @@ static void kernel_triangle(const KernelInput *input, ChunkSums *sums)
 
 /* ---- quadrilaterals ---- */
 
-/* Natural gradients of a bilinear quad: x_xi = a + eta h, x_eta = b + xi h (eq. E2), and their products. */
-typedef struct Gradients {
-    Lane a[3], b[3], h[3], centre[3];
-    Lane aa, bb, ab, ah, bh, hh;
-} Gradients;
+/* Natural gradients of a bilinear quad: x_xi = a + eta h, x_eta = b + xi h (eq. E2). */
+typedef struct QuadPack {
+    Pack a[3], b[3], h[3], centre[3];
+    Pack record[QUAD_RECORD];
+} QuadPack;
 
-ALWAYS_INLINE void quad_gradients(Corners *restrict c, Gradients *restrict g)
+ALWAYS_INLINE void quad_gradients(const KernelInput *input, const ElementPlace *place, QuadPack *q)
 {
+    Pack x[4][3];
+#pragma GCC unroll 4
+    for (int corner = 0; corner < 4; corner++) gather_nodes(place->node + corner * LANES, input->x, x[corner]);
+#pragma GCC unroll 3
     for (int k = 0; k < 3; k++) {
-#pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            double x1 = c->x[0][k][l], x2 = c->x[1][k][l], x3 = c->x[2][k][l], x4 = c->x[3][k][l];
-            g->a[k][l] = 0.25 * ((x2 - x1) + (x3 - x4));
-            g->b[k][l] = 0.25 * ((x4 - x1) + (x3 - x2));
-            g->h[k][l] = 0.25 * ((x1 - x2) + (x3 - x4));
-            g->centre[k][l] = 0.25 * ((x1 + x2) + (x3 + x4));
-        }
-    }
-}
-
-ALWAYS_INLINE double lane_dot(Lane *a, Lane *b, int l)
-{
-    return a[0][l] * b[0][l] + a[1][l] * b[1][l] + a[2][l] * b[2][l];
-}
-
-ALWAYS_INLINE void quad_products(Gradients *restrict g)
-{
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        g->aa[l] = lane_dot(g->a, g->a, l);
-        g->bb[l] = lane_dot(g->b, g->b, l);
-        g->ab[l] = lane_dot(g->a, g->b, l);
-        g->ah[l] = lane_dot(g->a, g->h, l);
-        g->bh[l] = lane_dot(g->b, g->h, l);
-        g->hh[l] = lane_dot(g->h, g->h, l);
+        Pack lower = x[1][k] - x[0][k], upper = x[2][k] - x[3][k], left = x[3][k] - x[0][k], right = x[2][k] - x[1][k];
+        q->a[k] = 0.25 * (lower + upper);
+        q->b[k] = 0.25 * (left + right);
+        q->h[k] = 0.25 * (upper - lower);
+        q->centre[k] = 0.25 * ((x[0][k] + x[1][k]) + (x[2][k] + x[3][k])) - input->origin[k];
     }
 }
 
 /* Corner forces from the forces conjugate to a, b and h (eq. E7). */
-ALWAYS_INLINE void quad_forces(Lane *restrict qa, Lane *restrict qb, Lane *restrict qh, Lane *restrict f)
+ALWAYS_INLINE void quad_forces(const Pack qa[3], const Pack qb[3], const Pack qh[3], QuadPack *q)
 {
+#pragma GCC unroll 3
     for (int k = 0; k < 3; k++) {
-#pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            double fa = 0.25 * qa[k][l], fb = 0.25 * qb[k][l], fh = 0.25 * qh[k][l];
-            f[k][l] = (fa + fb) - fh;
-            f[3 + k][l] = (fb - fa) + fh;
-            f[6 + k][l] = -((fa + fb) + fh);
-            f[9 + k][l] = (fa - fb) + fh;
-        }
+        Pack fa = 0.25 * qa[k], fb = 0.25 * qb[k], fh = 0.25 * qh[k];
+        q->record[k] = (fa + fb) - fh;
+        q->record[3 + k] = (fb - fa) + fh;
+        q->record[6 + k] = -((fa + fb) + fh);
+        q->record[9 + k] = (fa - fb) + fh;
     }
 }
 
 /* Pressure shares of the bilinear patch (eq. E9), its volume and area. */
-ALWAYS_INLINE void quad_area(Gradients *restrict g, const double *restrict sign, const double *restrict origin,
-                             Lane *restrict share, double *restrict under, double *restrict area)
+ALWAYS_INLINE void quad_area(Pack sign, int pack, QuadPack *q, PackSums *sums)
 {
-    Lane n[3];
+    Pack n[3], *share = q->record + 12, third = (1.0 / 3.0) * sign;
+#pragma GCC unroll 3
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
-#pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            double s = sign[l], third = (1.0 / 3.0) * s;
-            double normal = s * (g->a[i][l] * g->b[j][l] - g->a[j][l] * g->b[i][l]);
-            double na = third * (g->a[i][l] * g->h[j][l] - g->a[j][l] * g->h[i][l]);
-            double nb = third * (g->h[i][l] * g->b[j][l] - g->h[j][l] * g->b[i][l]);
-            n[k][l] = normal;
-            share[k][l] = normal - (na + nb);
-            share[3 + k][l] = normal + (na - nb);
-            share[6 + k][l] = normal + (na + nb);
-            share[9 + k][l] = normal - (na - nb);
-        }
+        Pack normal = sign * (q->a[i] * q->b[j] - q->a[j] * q->b[i]);
+        Pack na = third * (q->a[i] * q->h[j] - q->a[j] * q->h[i]);
+        Pack nb = third * (q->h[i] * q->b[j] - q->h[j] * q->b[i]);
+        n[k] = normal;
+        share[k] = normal - (na + nb);
+        share[3 + k] = normal + (na - nb);
+        share[6 + k] = normal + (na + nb);
+        share[9 + k] = normal - (na - nb);
     }
-    const double o0 = origin[0], o1 = origin[1], o2 = origin[2];
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        double n0 = n[0][l], n1 = n[1][l], n2 = n[2][l];
-        under[l] =
-            (4.0 / 3.0) * ((g->centre[0][l] - o0) * n0 + (g->centre[1][l] - o1) * n1 + (g->centre[2][l] - o2) * n2);
-        area[l] = 4.0 * sqrt(n0 * n0 + n1 * n1 + n2 * n2);
+    sums->volume.part[pack % SUM_PACKS] += (4.0 / 3.0) * dot(q->centre, n);
+    sums->area.part[pack % SUM_PACKS] += 4.0 * pack_root(dot(n, n));
+}
+
+enum { QUAD_POINTS = 4 };
+
+/* Metrics at the points g11 = x_xi.x_xi ... in material axes. */
+ALWAYS_INLINE void quad_metrics(const double *points, const QuadPack *q, const double xi[], const double eta[],
+                                PointPack *p)
+{
+    Pack aa = dot(q->a, q->a), bb = dot(q->b, q->b), ab = dot(q->a, q->b), ah = dot(q->a, q->h), bh = dot(q->b, q->h),
+         hh = dot(q->h, q->h);
+#pragma GCC unroll 4
+    for (int i = 0; i < QUAD_POINTS; i++) {
+        PackTensor g = {aa + eta[i] * (2.0 * ah + eta[i] * hh), bb + xi[i] * (2.0 * bh + xi[i] * hh),
+                        (ab + xi[i] * ah) + (eta[i] * bh + (xi[i] * eta[i]) * hh)};
+        p[i].c = material_metric(points + i * GEOMETRY_POINT_SIZE * LANES, g);
     }
 }
 
-/* Weighted sums of the natural stresses of the points: all that the forces need. */
-typedef struct StressSums {
-    Lane aa, ab, bb, ah, bh, hh, energy, viscous, rate;
-} StressSums;
-
-/* One of the four points. */
-ALWAYS_INLINE void quad_point(int mode, const LawInput *in, Gradients *restrict g, double xi, double eta,
-                              const double *restrict point, const double *restrict tail, double *restrict history,
-                              StressSums *restrict t)
+/* Weighted sums of the natural stresses of the points give all that the forces need (eq. E7). */
+ALWAYS_INLINE void quad_stress_forces(const PointPack *p, const double xi[], const double eta[], QuadPack *q)
 {
-    PointLanes p;
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        p.g11[l] = g->aa[l] + eta * (2.0 * g->ah[l] + eta * g->hh[l]);
-        p.g22[l] = g->bb[l] + xi * (2.0 * g->bh[l] + xi * g->hh[l]);
-        p.g12[l] = g->ab[l] + xi * g->ah[l] + eta * g->bh[l] + xi * eta * g->hh[l];
-        p.energy[l] = p.viscous[l] = 0.0;
+    const Pack zero = pack_of(0.0);
+    Pack aa = zero, ab = zero, bb = zero, ah = zero, bh = zero, hh = zero, qa[3], qb[3], qh[3];
+#pragma GCC unroll 4
+    for (int i = 0; i < QUAD_POINTS; i++) {
+        Pack u = eta[i] * p[i].p.a11 + xi[i] * p[i].p.a12, w = eta[i] * p[i].p.a12 + xi[i] * p[i].p.a22;
+        aa += p[i].p.a11;
+        ab += p[i].p.a12;
+        bb += p[i].p.a22;
+        ah += u;
+        bh += w;
+        hh += eta[i] * u + xi[i] * w;
     }
-    stage_metric(point, &p);
-    natural_stress(mode, in, point, tail, history, &p);
-#pragma omp simd
-    for (int l = 0; l < LANES; l++) {
-        double u = eta * p.p11[l] + xi * p.p12[l], w = eta * p.p12[l] + xi * p.p22[l];
-        t->aa[l] += p.p11[l];
-        t->ab[l] += p.p12[l];
-        t->bb[l] += p.p22[l];
-        t->ah[l] += u;
-        t->bh[l] += w;
-        t->hh[l] += eta * u + xi * w;
-        t->energy[l] += p.energy[l];
-        t->viscous[l] += p.viscous[l];
-        t->rate[l] = larger(t->rate[l], p.rate[l]);
+#pragma GCC unroll 3
+    for (int k = 0; k < 3; k++) {
+        Pack a = q->a[k], b = q->b[k], h = q->h[k];
+        qa[k] = aa * a + ab * b + ah * h;
+        qb[k] = ab * a + bb * b + bh * h;
+        qh[k] = ah * a + bh * b + hh * h;
     }
+    quad_forces(qa, qb, qh, q);
+}
+
+ALWAYS_INLINE void quad_full_pack(int mode, const KernelInput *input, const LawInput *in, int block, int pack,
+                                  PackSums *sums)
+{
+    const double gauss = 0.57735026918962576, xi[] = {-gauss, gauss, gauss, -gauss},
+                 eta[] = {-gauss, -gauss, gauss, gauss};
+    ElementPlace place = find_place(input, block, pack, 4, QUAD_RECORD);
+    const double *tail = place.geometry + QUAD_POINTS * GEOMETRY_POINT_SIZE * LANES;
+    QuadPack q;
+    PointPack p[QUAD_POINTS];
+    PointPlace point[QUAD_POINTS];
+    for (int i = 0; i < QUAD_POINTS; i++)
+        point[i] = (PointPlace){place.geometry + i * GEOMETRY_POINT_SIZE * LANES, tail,
+                                place.history + i * HISTORY_POINT_SIZE * LANES};
+    quad_gradients(input, &place, &q);
+    quad_metrics(place.geometry, &q, xi, eta, p);
+    natural_stress(mode, in, QUAD_POINTS, point, p);
+    quad_stress_forces(p, xi, eta, &q);
+    quad_area(lane_values(tail, GEOMETRY_SIGN), pack, &q, sums);
+    write_record(QUAD_RECORD, q.record, place.record);
+    p[0].energy = (p[0].energy + p[1].energy) + (p[2].energy + p[3].energy);
+    p[0].viscous = (p[0].viscous + p[1].viscous) + (p[2].viscous + p[3].viscous);
+    p[0].rate = pack_larger(pack_larger(p[0].rate, p[1].rate), pack_larger(p[2].rate, p[3].rate));
+    sum_point(input, block, pack, &p[0], sums);
 }
 
 ALWAYS_INLINE void quad_full_blocks(int mode, const KernelInput *input, ChunkSums *sums)
 {
-    const double gauss = 0.57735026918962576;
-    const ElementGroup *group = input->group;
     const LawInput in = make_law_input(input);
-    for (int block = input->first_block; block < input->end_block; block++) {
-        Corners c;
-        Gradients g;
-        StressSums t = {0};
-        Lane qa[3], qb[3], qh[3], record[QUAD_RECORD], under, area;
-        const double *points = group->geometry + (size_t)block * (size_t)group->geometry_size * LANES;
-        const double *tail = points + 4 * GEOMETRY_POINT_SIZE * LANES;
-        double *history = input->history + group->history_offset + (size_t)block * (size_t)group->history_size * LANES;
-        gather_corners(group, block, input->x, 4, &c);
-        quad_gradients(&c, &g);
-        quad_products(&g);
-        for (int i = 0; i < 4; i++)
-            quad_point(mode, &in, &g, i == 1 || i == 2 ? gauss : -gauss, i >= 2 ? gauss : -gauss,
-                       points + i * GEOMETRY_POINT_SIZE * LANES, tail, history + i * HISTORY_POINT_SIZE * LANES, &t);
-        for (int k = 0; k < 3; k++) {
-#pragma omp simd
-            for (int l = 0; l < LANES; l++) {
-                double a = g.a[k][l], b = g.b[k][l], h = g.h[k][l];
-                qa[k][l] = t.aa[l] * a + t.ab[l] * b + t.ah[l] * h;
-                qb[k][l] = t.ab[l] * a + t.bb[l] * b + t.bh[l] * h;
-                qh[k][l] = t.ah[l] * a + t.bh[l] * b + t.hh[l] * h;
-            }
-        }
-        quad_forces(qa, qb, qh, record);
-        quad_area(&g, tail + GEOMETRY_SIGN * LANES, input->origin, record + 12, under, area);
-        write_records(QUAD_RECORD, record, input->corner + group->corner_offset + (size_t)block * QUAD_RECORD * LANES);
-        sum_block(input, block, under, area, NULL, sums);
-        sums->energy += sum_lanes(t.energy);
-        sums->viscous += sum_lanes(t.viscous);
-        sums->rate = largest_lane(t.rate, sums->rate);
-        if (input->lane_rate) copy_rates(input, block, t.rate);
-    }
+    PackSums packs = {0};
+    for (int block = input->first_block; block < input->end_block; block++)
+        for (int i = 0; i < PACKS; i++) quad_full_pack(mode, input, &in, block, i, &packs);
+    finish_sums(&packs, sums);
 }
 
-static void kernel_quad_full(const KernelInput *input, ChunkSums *sums){
+static void kernel_quad_full(const KernelInput *input, ChunkSums *sums)
+{
 #define WORK(mode) quad_full_blocks(mode, input, sums)
     FOR_MODE(kernel_mode(input->group), WORK)
 #undef WORK
 }
 
-/* One point on the mean metric, with q = h - its affine part: g11 = a.a + q.q/3 (eq. E17), so that transverse hourglass
- * modes are held by the stress, in-plane ones by the modulus QH (eq. E18). */
+/* The one-point quad's hourglass vector q = h - its affine part, and what holds it (eq. E17, E18). */
+typedef struct HourglassPack {
+    Pack q[3], skew1, skew2, hold1, hold2;
+} HourglassPack;
+
+/* The mean metric g11 = a.a + q.q/3, so that transverse hourglass modes are held by the stress (eq. E17), in-plane ones
+ * by the modulus QH (eq. E18). */
+ALWAYS_INLINE PackTensor one_point_metric(const double *constant, const QuadPack *quad, int pack, HourglassPack *glass,
+                                          PackSums *sums)
+{
+    glass->skew1 = lane_values(constant, GEOMETRY_SKEW1);
+    glass->skew2 = lane_values(constant, GEOMETRY_SKEW2);
+#pragma GCC unroll 3
+    for (int k = 0; k < 3; k++) glass->q[k] = quad->h[k] - (glass->skew1 * quad->a[k] + glass->skew2 * quad->b[k]);
+    Pack third = dot(glass->q, glass->q) * (1.0 / 3.0), r1 = dot(glass->q, quad->a), r2 = dot(glass->q, quad->b);
+    glass->hold1 = lane_values(constant, GEOMETRY_HOURGLASS1) * r1;
+    glass->hold2 = lane_values(constant, GEOMETRY_HOURGLASS2) * r2;
+    sums->hourglass.part[pack % SUM_PACKS] += 0.5 * (glass->hold1 * r1 + glass->hold2 * r2);
+    PackTensor g = {dot(quad->a, quad->a) + third, dot(quad->b, quad->b) + third, dot(quad->a, quad->b)};
+    return g;
+}
+
+ALWAYS_INLINE void one_point_forces(const PackTensor *p, const HourglassPack *glass, QuadPack *quad)
+{
+    Pack third = (p->a11 + p->a22) * (1.0 / 3.0), qa[3], qb[3], qh[3];
+#pragma GCC unroll 3
+    for (int k = 0; k < 3; k++) {
+        Pack a = quad->a[k], b = quad->b[k], hold = glass->hold1 * a + glass->hold2 * b + third * glass->q[k];
+        qa[k] = p->a11 * a + p->a12 * b + glass->hold1 * glass->q[k] - glass->skew1 * hold;
+        qb[k] = p->a12 * a + p->a22 * b + glass->hold2 * glass->q[k] - glass->skew2 * hold;
+        qh[k] = hold;
+    }
+    quad_forces(qa, qb, qh, quad);
+}
+
 ALWAYS_INLINE void quad_one_blocks(int mode, const KernelInput *input, ChunkSums *sums)
 {
-    const ElementGroup *group = input->group;
     const LawInput in = make_law_input(input);
-    PointLanes p;
-    for (int l = 0; l < LANES; l++) p.energy[l] = p.viscous[l] = 0.0;
+    PackSums packs = {0};
     for (int block = input->first_block; block < input->end_block; block++) {
-        Corners c;
-        Gradients g;
-        Lane q[3], r1, r2, hold1, hold2, third, qa[3], qb[3], qh[3], record[QUAD_RECORD], under, area, glass;
-        const double *point = group->geometry + (size_t)block * (size_t)group->geometry_size * LANES;
-        const double *tail = point + GEOMETRY_POINT_SIZE * LANES, *constant = tail + GEOMETRY_TAIL_SIZE * LANES;
-        const double *skew1 = constant + GEOMETRY_SKEW1 * LANES, *skew2 = constant + GEOMETRY_SKEW2 * LANES;
-        double *history = input->history + group->history_offset + (size_t)block * (size_t)group->history_size * LANES;
-        gather_corners(group, block, input->x, 4, &c);
-        quad_gradients(&c, &g);
-        for (int k = 0; k < 3; k++)
-#pragma omp simd
-            for (int l = 0; l < LANES; l++) q[k][l] = g.h[k][l] - (skew1[l] * g.a[k][l] + skew2[l] * g.b[k][l]);
-#pragma omp simd
-        for (int l = 0; l < LANES; l++) {
-            double qq = lane_dot(q, q, l) * (1.0 / 3.0);
-            p.g11[l] = lane_dot(g.a, g.a, l) + qq;
-            p.g22[l] = lane_dot(g.b, g.b, l) + qq;
-            p.g12[l] = lane_dot(g.a, g.b, l);
-            r1[l] = lane_dot(q, g.a, l);
-            r2[l] = lane_dot(q, g.b, l);
-            hold1[l] = constant[GEOMETRY_HOURGLASS1 * LANES + l] * r1[l];
-            hold2[l] = constant[GEOMETRY_HOURGLASS2 * LANES + l] * r2[l];
-            glass[l] = 0.5 * (hold1[l] * r1[l] + hold2[l] * r2[l]);
+        QuadPack quad[PACKS];
+        HourglassPack glass[PACKS];
+        PointPack p[PACKS];
+        PointPlace point[PACKS];
+        ElementPlace place[PACKS];
+        for (int i = 0; i < PACKS; i++) {
+            place[i] = find_place(input, block, i, 4, QUAD_RECORD);
+            const double *tail = place[i].geometry + GEOMETRY_POINT_SIZE * LANES;
+            point[i] = (PointPlace){place[i].geometry, tail, place[i].history};
+            quad_gradients(input, &place[i], &quad[i]);
+            quad_area(lane_values(tail, GEOMETRY_SIGN), i, &quad[i], &packs);
+            p[i].c = material_metric(
+                place[i].geometry, one_point_metric(tail + GEOMETRY_TAIL_SIZE * LANES, &quad[i], i, &glass[i], &packs));
         }
-        stage_metric(point, &p);
-        natural_stress(mode, &in, point, tail, history, &p);
-        for (int l = 0; l < LANES; l++) third[l] = (p.p11[l] + p.p22[l]) * (1.0 / 3.0);
-        for (int k = 0; k < 3; k++) {
-#pragma omp simd
-            for (int l = 0; l < LANES; l++) {
-                double a = g.a[k][l], b = g.b[k][l], hold = hold1[l] * a + hold2[l] * b + third[l] * q[k][l];
-                qa[k][l] = p.p11[l] * a + p.p12[l] * b + hold1[l] * q[k][l] - skew1[l] * hold;
-                qb[k][l] = p.p12[l] * a + p.p22[l] * b + hold2[l] * q[k][l] - skew2[l] * hold;
-                qh[k][l] = hold;
-            }
+        natural_stress(mode, &in, PACKS, point, p);
+        for (int i = 0; i < PACKS; i++) {
+            one_point_forces(&p[i].p, &glass[i], &quad[i]);
+            write_record(QUAD_RECORD, quad[i].record, place[i].record);
+            sum_point(input, block, i, &p[i], &packs);
         }
-        quad_forces(qa, qb, qh, record);
-        quad_area(&g, tail + GEOMETRY_SIGN * LANES, input->origin, record + 12, under, area);
-        write_records(QUAD_RECORD, record, input->corner + group->corner_offset + (size_t)block * QUAD_RECORD * LANES);
-        sum_block(input, block, under, area, &p, sums);
-        sums->hourglass += sum_lanes(glass);
     }
+    finish_sums(&packs, sums);
 }
 
 static void kernel_quad_one(const KernelInput *input, ChunkSums *sums)
@@ -463,29 +447,37 @@ static void kernel_quad_one(const KernelInput *input, ChunkSums *sums)
 
 /* ---- surfaces without stress ---- */
 
+static void surface_triangle(const KernelInput *input, int block, int pack, PackSums *sums)
+{
+    ElementPlace place = find_place(input, block, pack, 3, TRIANGLE_RECORD);
+    TrianglePack t;
+    for (int k = 0; k < 9; k++) t.record[k] = pack_of(0.0);
+    triangle_area(input, &place, pack_load(place.geometry), pack, &t, sums);
+    write_record(TRIANGLE_RECORD, t.record, place.record);
+}
+
+static void surface_quad(const KernelInput *input, int block, int pack, PackSums *sums)
+{
+    ElementPlace place = find_place(input, block, pack, 4, QUAD_RECORD);
+    QuadPack q;
+    for (int k = 0; k < 12; k++) q.record[k] = pack_of(0.0);
+    quad_gradients(input, &place, &q);
+    quad_area(pack_load(place.geometry), pack, &q, sums);
+    write_record(QUAD_RECORD, q.record, place.record);
+}
+
 static void kernel_surface(const KernelInput *input, ChunkSums *sums)
 {
-    const ElementGroup *group = input->group;
-    bool triangle = group->corner_count == 3;
-    const int size = triangle ? TRIANGLE_RECORD : QUAD_RECORD;
+    PackSums packs = {0};
     for (int block = input->first_block; block < input->end_block; block++) {
-        Corners c;
-        Gradients g;
-        Lane e[6], under, area, record[QUAD_RECORD] = {{0}};
-        const double *sign = group->geometry + (size_t)block * LANES;
-        double *out = input->corner + group->corner_offset + (size_t)block * (size_t)size * LANES;
-        gather_corners(group, block, input->x, group->corner_count, &c);
-        if (triangle) {
-            triangle_edges(&c, e);
-            triangle_area(&c, e, sign, input->origin, record + 9, under, area);
-            write_records(TRIANGLE_RECORD, record, out);
-        } else {
-            quad_gradients(&c, &g);
-            quad_area(&g, sign, input->origin, record + 12, under, area);
-            write_records(QUAD_RECORD, record, out);
+        for (int i = 0; i < PACKS; i++) {
+            if (input->group->corner_count == 3)
+                surface_triangle(input, block, i, &packs);
+            else
+                surface_quad(input, block, i, &packs);
         }
-        sum_block(input, block, under, area, NULL, sums);
     }
+    finish_sums(&packs, sums);
 }
 
 const KernelTable BILLOW_KERNEL_TABLE = {BILLOW_KERNEL_LEVEL, kernel_surface, kernel_triangle, kernel_quad_full,

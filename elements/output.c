@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#define BILLOW_KERNEL_LEVEL 2 /* the laws on the smallest packs; the first lane counts */
 #include "elements/kernel_law.h"
 #include "elements/kernels.h"
 #include "elements/membrane.h"
@@ -11,13 +12,13 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Symmetric tensor sum of t11 u u + t22 w w + t12 (u w + w u) in order xx yy zz xy yz zx. */
-static void to_global(Tensor2 t, const double u[3], const double w[3], double scale, double out[6])
+/* Symmetric tensor sum of t11 u u + t22 w w + t12 (u w + w u) in order xx yy zz xy yz zx; first lane. */
+static void to_global(PackTensor t, const double u[3], const double w[3], double scale, double out[6])
 {
     static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
     for (int i = 0; i < 6; i++) {
         int a = row[i], b = column[i];
-        out[i] += scale * (t.a11 * u[a] * u[b] + t.a22 * w[a] * w[b] + t.a12 * (u[a] * w[b] + u[b] * w[a]));
+        out[i] += scale * (t.a11[0] * u[a] * u[b] + t.a22[0] * w[a] * w[b] + t.a12[0] * (u[a] * w[b] + u[b] * w[a]));
     }
 }
 
@@ -33,30 +34,26 @@ static void add_point(const ElementGroup *group, const double *point, const doub
         f2[k] = m12 * g1[k] + m22 * g2[k];
     }
     const FabricLaw *law = &group->material;
-    Tensor2 c = {dot(f1, f1), dot(f2, f2), dot(f1, f2)};
-    double det = larger(c.a11 * c.a22 - c.a12 * c.a12, BILLOW_LEAST_SQUARED_STRETCH), j = sqrt(det);
+    double c11 = dot(f1, f1), c22 = dot(f2, f2), c12 = dot(f1, f2);
+    double j = sqrt(fmax(c11 * c22 - c12 * c12, BILLOW_LEAST_SQUARED_STRETCH));
+    PackTensor c = {pack_of(c11), pack_of(c22), pack_of(c12)}, e, s;
     if (group->law == LAW_GREEN) {
         Compliance b = make_compliance(&law->fabric);
-        GreenResult r = green_stress(law, &b, law->no_compression, law->has_liner, green_strain(c));
-        to_global(r.stress, f1, f2, share / j, result->stress); /* Cauchy stress on the current area, thickness kept */
+        e = green_strain(c);
+        s = green_stress(law, &b, law->no_compression, law->has_liner, e).stress;
     } else {
-        StretchFrame f = stretch_frame(c);
-        double major, slack;
-        Tensor2 t = logarithmic_stress(law, law->no_compression, law->has_liner,
-                                       logarithmic_strain(f.cosine, f.sine, f.c1, f.c2), &major, &slack);
-        to_global(pull_back(t, f.cosine, f.sine, f.narrow, f.wide), f1, f2, share / j, result->stress);
+        LogarithmicState f = logarithmic_state(c);
+        Pack major;
+        e = f.strain;
+        s = pull_back(logarithmic_stress(law, law->no_compression, law->has_liner, e, &major), c, f.jacobian, f.pull);
     }
-    /* Green strain in the rotated material axes: R = F U^-1 */
-    double inverse = 1.0 / (j * sqrt(c.a11 + c.a22 + 2.0 * j));
-    double u11 = (c.a22 + j) * inverse, u22 = (c.a11 + j) * inverse, u12 = -c.a12 * inverse, r1[3], r2[3];
+    to_global(s, f1, f2, share / j, result->stress); /* Cauchy stress on the current area, thickness kept */
+    /* strain in the rotated material axes: R = F U^-1 */
+    double inverse = 1.0 / (j * sqrt(c11 + c22 + 2.0 * j));
+    double u11 = (c22 + j) * inverse, u22 = (c11 + j) * inverse, u12 = -c12 * inverse, r1[3], r2[3];
     for (int k = 0; k < 3; k++) {
         r1[k] = f1[k] * u11 + f2[k] * u12;
         r2[k] = f1[k] * u12 + f2[k] * u22;
-    }
-    Tensor2 e = green_strain(c);
-    if (group->law == LAW_LOGARITHMIC) {
-        StretchFrame f = stretch_frame(c);
-        e = logarithmic_strain(f.cosine, f.sine, f.c1, f.c2);
     }
     to_global(e, r1, r2, share, result->strain);
 }

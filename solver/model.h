@@ -48,7 +48,7 @@ typedef struct ElementGroup {
     bool has_history;
 } ElementGroup;
 
-enum { BILLOW_CHUNK = 2 }; /* blocks in one fixed partial sum */
+enum { BILLOW_CHUNK = 4 }; /* blocks in one fixed partial sum */
 
 /* A set of pressures that act together on a surface: net pressure = sum of sign * source pressure. */
 typedef struct PressureSet {
