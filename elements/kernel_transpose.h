@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 
+#include "elements/kernels.h"
 #include "elements/pack.h"
 
 /* Two and four doubles anywhere in memory. */
@@ -12,7 +13,8 @@ typedef double LooseTwo __attribute__((vector_size(16), aligned(8), may_alias));
 typedef double LooseFour __attribute__((vector_size(32), aligned(8), may_alias));
 
 /* gather_nodes: x, y, z of PACK_WIDTH nodes, three doubles each; a row's fourth double is loaded and dropped.
- * scatter_four: lane values of four quantities to four consecutive doubles per lane, the lanes size doubles apart. */
+ * add_rows: adds a force f and an area vector s per lane to that lane's row of corner sums (ROW_SIZE doubles: f, one
+ * unused, s, one unused), lane by lane, since lanes may share a row. */
 #if BILLOW_KERNEL_LEVEL >= 4
 /* Two rows side by side in one register. */
 ALWAYS_INLINE Pack two_rows(const double *low, const double *high)
@@ -36,21 +38,37 @@ ALWAYS_INLINE void gather_nodes(const int32_t *restrict node, const double *rest
     out[2] = __builtin_shufflevector(ab, cd, 2, 3, 6, 7, 10, 11, 14, 15);
 }
 
-ALWAYS_INLINE void scatter_four(int size, const Pack from[4], double *restrict record)
+/* Lanes i and i + 4 of a vector side by side, x y z 0 x y z 0. */
+ALWAYS_INLINE void lane_pairs(const Pack v[3], Pack pair[4])
 {
-    Pack ab = __builtin_shufflevector(from[0], from[1], 0, 8, 2, 10, 4, 12, 6, 14),
-         cd = __builtin_shufflevector(from[2], from[3], 0, 8, 2, 10, 4, 12, 6, 14),
-         ab1 = __builtin_shufflevector(from[0], from[1], 1, 9, 3, 11, 5, 13, 7, 15),
-         cd1 = __builtin_shufflevector(from[2], from[3], 1, 9, 3, 11, 5, 13, 7, 15);
-    /* lanes i and i + 4 side by side */
-    const Pack rows[4] = {__builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13),
-                          __builtin_shufflevector(ab1, cd1, 0, 1, 8, 9, 4, 5, 12, 13),
-                          __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15),
-                          __builtin_shufflevector(ab1, cd1, 2, 3, 10, 11, 6, 7, 14, 15)};
+    const Pack zero = pack_of(0.0);
+    Pack ab = __builtin_shufflevector(v[0], v[1], 0, 8, 2, 10, 4, 12, 6, 14),
+         cd = __builtin_shufflevector(v[2], zero, 0, 8, 2, 10, 4, 12, 6, 14),
+         ab1 = __builtin_shufflevector(v[0], v[1], 1, 9, 3, 11, 5, 13, 7, 15),
+         cd1 = __builtin_shufflevector(v[2], zero, 1, 9, 3, 11, 5, 13, 7, 15);
+    pair[0] = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
+    pair[1] = __builtin_shufflevector(ab1, cd1, 0, 1, 8, 9, 4, 5, 12, 13);
+    pair[2] = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
+    pair[3] = __builtin_shufflevector(ab1, cd1, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+ALWAYS_INLINE void add_rows(int corners, int areas, const int32_t *restrict row, int stride, Pack f[][3], Pack s[][3],
+                            double *rows)
+{
+    Pack force[4][4], area[4][4];
 #pragma GCC unroll 4
-    for (int i = 0; i < 4; i++) {
-        *(LooseFour *)(record + size * i) = __builtin_shufflevector(rows[i], rows[i], 0, 1, 2, 3);
-        *(LooseFour *)(record + size * (i + 4)) = __builtin_shufflevector(rows[i], rows[i], 4, 5, 6, 7);
+    for (int c = 0; c < corners; c++) lane_pairs(f[c], force[c]);
+#pragma GCC unroll 4
+    for (int c = 0; c < areas; c++) lane_pairs(s[c], area[c]);
+#pragma GCC unroll 8
+    for (int i = 0; i < 8; i++) {
+#pragma GCC unroll 4
+        for (int c = 0; c < corners; c++) {
+            Pack fi = force[c][i % 4], si = area[areas == 1 ? 0 : c][i % 4];
+            Pack *to = (Pack *)(void *)(rows + ROW_SIZE * (ptrdiff_t)row[c * stride + i]);
+            *to += i < 4 ? __builtin_shufflevector(fi, si, 0, 1, 2, 3, 8, 9, 10, 11)
+                         : __builtin_shufflevector(fi, si, 4, 5, 6, 7, 12, 13, 14, 15);
+        }
     }
 }
 #elif BILLOW_KERNEL_LEVEL == 3
@@ -67,16 +85,34 @@ ALWAYS_INLINE void gather_nodes(const int32_t *restrict node, const double *rest
     out[2] = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
 }
 
-ALWAYS_INLINE void scatter_four(int size, const Pack from[4], double *restrict record)
+ALWAYS_INLINE void lane_vectors(const Pack v[3], Pack lane[4])
 {
-    Pack ab = __builtin_shufflevector(from[0], from[1], 0, 4, 2, 6),
-         cd = __builtin_shufflevector(from[2], from[3], 0, 4, 2, 6),
-         ab1 = __builtin_shufflevector(from[0], from[1], 1, 5, 3, 7),
-         cd1 = __builtin_shufflevector(from[2], from[3], 1, 5, 3, 7);
-    *(LooseFour *)record = __builtin_shufflevector(ab, cd, 0, 1, 4, 5);
-    *(LooseFour *)(record + size) = __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5);
-    *(LooseFour *)(record + 2 * size) = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
-    *(LooseFour *)(record + 3 * size) = __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7);
+    const Pack zero = pack_of(0.0);
+    Pack ab = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6), cd = __builtin_shufflevector(v[2], zero, 0, 4, 2, 6),
+         ab1 = __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7), cd1 = __builtin_shufflevector(v[2], zero, 1, 5, 3, 7);
+    lane[0] = __builtin_shufflevector(ab, cd, 0, 1, 4, 5);
+    lane[1] = __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5);
+    lane[2] = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+    lane[3] = __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7);
+}
+
+ALWAYS_INLINE void add_rows(int corners, int areas, const int32_t *restrict row, int stride, Pack f[][3], Pack s[][3],
+                            double *rows)
+{
+    Pack force[4][4], area[4][4];
+#pragma GCC unroll 4
+    for (int c = 0; c < corners; c++) lane_vectors(f[c], force[c]);
+#pragma GCC unroll 4
+    for (int c = 0; c < areas; c++) lane_vectors(s[c], area[c]);
+#pragma GCC unroll 4
+    for (int i = 0; i < 4; i++) {
+#pragma GCC unroll 4
+        for (int c = 0; c < corners; c++) {
+            Pack *to = (Pack *)(void *)(rows + ROW_SIZE * (ptrdiff_t)row[c * stride + i]);
+            to[0] += force[c][i];
+            to[1] += area[areas == 1 ? 0 : c][i];
+        }
+    }
 }
 #else
 ALWAYS_INLINE void gather_nodes(const int32_t *restrict node, const double *restrict x, Pack out[3])
@@ -88,12 +124,18 @@ ALWAYS_INLINE void gather_nodes(const int32_t *restrict node, const double *rest
     out[2] = (Pack){a[2], b[2]};
 }
 
-ALWAYS_INLINE void scatter_four(int size, const Pack from[4], double *restrict record)
+ALWAYS_INLINE void add_rows(int corners, int areas, const int32_t *restrict row, int stride, Pack f[][3], Pack s[][3],
+                            double *rows)
 {
-    *(LooseTwo *)record = __builtin_shufflevector(from[0], from[1], 0, 2);
-    *(LooseTwo *)(record + 2) = __builtin_shufflevector(from[2], from[3], 0, 2);
-    *(LooseTwo *)(record + size) = __builtin_shufflevector(from[0], from[1], 1, 3);
-    *(LooseTwo *)(record + size + 2) = __builtin_shufflevector(from[2], from[3], 1, 3);
+    for (int i = 0; i < 2; i++) {
+        for (int c = 0; c < corners; c++) {
+            double *to = rows + ROW_SIZE * (ptrdiff_t)row[c * stride + i];
+            for (int k = 0; k < 3; k++) {
+                to[k] += f[c][k][i];
+                to[4 + k] += s[areas == 1 ? 0 : c][k][i];
+            }
+        }
+    }
 }
 #endif
 

@@ -2,7 +2,7 @@
  * table.
  *
  * A kernel walks over blocks of BILLOW_LANES elements, a pack of lanes at a time: gather the corners, metric, stress
- * (kernel_stages.h), corner records. Equations: docs/theory.md, Elements. */
+ * (kernel_stages.h), corner sums. Equations: docs/theory.md, Elements. */
 #include "elements/kernels.h"
 
 #include "elements/kernel_stages.h"
@@ -118,28 +118,22 @@ static int kernel_mode(const ElementGroup *group)
         break;                                                                                                         \
     }
 
-/* Constants, histories and records of one pack of elements. */
+/* Nodes, rows, constants and histories of one pack of elements. */
 typedef struct ElementPlace {
-    const int32_t *node; /* of the first corner; the next corner's are LANES further */
+    const int32_t *node, *row; /* of the first corner; the next corner's are LANES further */
     const double *geometry;
-    double *history, *record;
+    double *history;
 } ElementPlace;
 
-ALWAYS_INLINE ElementPlace find_place(const KernelInput *input, int block, int pack, int corners, int record_size)
+ALWAYS_INLINE ElementPlace find_place(const KernelInput *input, int block, int pack, int corners)
 {
     const ElementGroup *group = input->group;
     ptrdiff_t lane = (ptrdiff_t)pack * PACK_WIDTH, first = (ptrdiff_t)block * LANES;
     ElementPlace place = {.node = group->node + first * corners + lane,
+                          .row = group->row + first * corners + lane,
                           .geometry = group->geometry + first * group->geometry_size + lane,
-                          .history = input->history + group->history_offset + first * group->history_size + lane,
-                          .record = input->corner + group->corner_offset + (first + lane) * record_size};
+                          .history = input->history + group->history_offset + first * group->history_size + lane};
     return place;
-}
-
-ALWAYS_INLINE void write_record(int size, const Pack *from, double *record)
-{
-#pragma GCC unroll 6
-    for (int k = 0; k < size; k += 4) scatter_four(size, from + k, record + k);
 }
 
 ALWAYS_INLINE Pack dot(const Pack a[3], const Pack b[3])
@@ -152,7 +146,7 @@ ALWAYS_INLINE Pack dot(const Pack a[3], const Pack b[3])
 /* Edges from the first corner (eq. E1). */
 typedef struct TrianglePack {
     Pack e1[3], e2[3];
-    Pack record[TRIANGLE_RECORD];
+    Pack force[3][3], share[3]; /* of each corner; of all corners alike */
 } TrianglePack;
 
 /* C = F^T F with F = e M formed first: the metric of a sliver's edges would lose the square of its aspect in digits. */
@@ -183,7 +177,7 @@ ALWAYS_INLINE void triangle_area(const KernelInput *input, const ElementPlace *p
         t->e2[k] = x2[k] - x0[k];
         x0[k] -= input->origin[k];
     }
-    Pack sixth = (1.0 / 6.0) * sign, *share = t->record + 9;
+    Pack sixth = (1.0 / 6.0) * sign, *share = t->share;
     share[0] = sixth * (t->e1[1] * t->e2[2] - t->e1[2] * t->e2[1]);
     share[1] = sixth * (t->e1[2] * t->e2[0] - t->e1[0] * t->e2[2]);
     share[2] = sixth * (t->e1[0] * t->e2[1] - t->e1[1] * t->e2[0]);
@@ -197,10 +191,15 @@ ALWAYS_INLINE void triangle_forces(const PackTensor *p, TrianglePack *t)
 #pragma GCC unroll 3
     for (int k = 0; k < 3; k++) {
         Pack f2 = p->a11 * t->e1[k] + p->a12 * t->e2[k], f3 = p->a12 * t->e1[k] + p->a22 * t->e2[k];
-        t->record[k] = f2 + f3;
-        t->record[3 + k] = -f2;
-        t->record[6 + k] = -f3;
+        t->force[0][k] = f2 + f3;
+        t->force[1][k] = -f2;
+        t->force[2][k] = -f3;
     }
+}
+
+ALWAYS_INLINE void triangle_add(const KernelInput *input, const ElementPlace *place, TrianglePack *t)
+{
+    if (input->rows) add_rows(3, 1, place->row, LANES, t->force, &t->share, input->rows);
 }
 
 ALWAYS_INLINE void triangle_blocks(int mode, const KernelInput *input, ChunkSums *sums)
@@ -213,7 +212,7 @@ ALWAYS_INLINE void triangle_blocks(int mode, const KernelInput *input, ChunkSums
         PointPlace point[PACKS];
         ElementPlace place[PACKS];
         for (int i = 0; i < PACKS; i++) {
-            place[i] = find_place(input, block, i, 3, TRIANGLE_RECORD);
+            place[i] = find_place(input, block, i, 3);
             const double *tail = place[i].geometry + GEOMETRY_POINT_SIZE * LANES;
             point[i] = (PointPlace){place[i].geometry, tail, place[i].history};
             triangle_area(input, &place[i], lane_values(tail, GEOMETRY_SIGN), i, &t[i], &packs);
@@ -222,7 +221,7 @@ ALWAYS_INLINE void triangle_blocks(int mode, const KernelInput *input, ChunkSums
         natural_stress(mode, &in, PACKS, point, p);
         for (int i = 0; i < PACKS; i++) {
             triangle_forces(&p[i].p, &t[i]);
-            write_record(TRIANGLE_RECORD, t[i].record, place[i].record);
+            triangle_add(input, &place[i], &t[i]);
             sum_point(input, block, i, &p[i], &packs);
         }
     }
@@ -241,7 +240,7 @@ static void kernel_triangle(const KernelInput *input, ChunkSums *sums)
 /* Natural gradients of a bilinear quad: x_xi = a + eta h, x_eta = b + xi h (eq. E2). */
 typedef struct QuadPack {
     Pack a[3], b[3], h[3], centre[3];
-    Pack record[QUAD_RECORD];
+    Pack force[4][3], share[4][3]; /* of each corner */
 } QuadPack;
 
 ALWAYS_INLINE void quad_gradients(const KernelInput *input, const ElementPlace *place, QuadPack *q)
@@ -265,17 +264,22 @@ ALWAYS_INLINE void quad_forces(const Pack qa[3], const Pack qb[3], const Pack qh
 #pragma GCC unroll 3
     for (int k = 0; k < 3; k++) {
         Pack fa = 0.25 * qa[k], fb = 0.25 * qb[k], fh = 0.25 * qh[k];
-        q->record[k] = (fa + fb) - fh;
-        q->record[3 + k] = (fb - fa) + fh;
-        q->record[6 + k] = -((fa + fb) + fh);
-        q->record[9 + k] = (fa - fb) + fh;
+        q->force[0][k] = (fa + fb) - fh;
+        q->force[1][k] = (fb - fa) + fh;
+        q->force[2][k] = -((fa + fb) + fh);
+        q->force[3][k] = (fa - fb) + fh;
     }
+}
+
+ALWAYS_INLINE void quad_add(const KernelInput *input, const ElementPlace *place, QuadPack *q)
+{
+    if (input->rows) add_rows(4, 4, place->row, LANES, q->force, q->share, input->rows);
 }
 
 /* Pressure shares of the bilinear patch (eq. E9), its volume and area. */
 ALWAYS_INLINE void quad_area(Pack sign, int pack, QuadPack *q, PackSums *sums)
 {
-    Pack n[3], *share = q->record + 12, third = (1.0 / 3.0) * sign;
+    Pack n[3], third = (1.0 / 3.0) * sign;
 #pragma GCC unroll 3
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -283,10 +287,10 @@ ALWAYS_INLINE void quad_area(Pack sign, int pack, QuadPack *q, PackSums *sums)
         Pack na = third * (q->a[i] * q->h[j] - q->a[j] * q->h[i]);
         Pack nb = third * (q->h[i] * q->b[j] - q->h[j] * q->b[i]);
         n[k] = normal;
-        share[k] = normal - (na + nb);
-        share[3 + k] = normal + (na - nb);
-        share[6 + k] = normal + (na + nb);
-        share[9 + k] = normal - (na - nb);
+        q->share[0][k] = normal - (na + nb);
+        q->share[1][k] = normal + (na - nb);
+        q->share[2][k] = normal + (na + nb);
+        q->share[3][k] = normal - (na - nb);
     }
     sums->volume.part[pack % SUM_PACKS] += (4.0 / 3.0) * dot(q->centre, n);
     sums->area.part[pack % SUM_PACKS] += 4.0 * pack_root(dot(n, n));
@@ -338,7 +342,7 @@ ALWAYS_INLINE void quad_full_pack(int mode, const KernelInput *input, const LawI
 {
     const double gauss = 0.57735026918962576, xi[] = {-gauss, gauss, gauss, -gauss},
                  eta[] = {-gauss, -gauss, gauss, gauss};
-    ElementPlace place = find_place(input, block, pack, 4, QUAD_RECORD);
+    ElementPlace place = find_place(input, block, pack, 4);
     const double *tail = place.geometry + QUAD_POINTS * GEOMETRY_POINT_SIZE * LANES;
     QuadPack q;
     PointPack p[QUAD_POINTS];
@@ -351,7 +355,7 @@ ALWAYS_INLINE void quad_full_pack(int mode, const KernelInput *input, const LawI
     natural_stress(mode, in, QUAD_POINTS, point, p);
     quad_stress_forces(p, xi, eta, &q);
     quad_area(lane_values(tail, GEOMETRY_SIGN), pack, &q, sums);
-    write_record(QUAD_RECORD, q.record, place.record);
+    quad_add(input, &place, &q);
     p[0].energy = (p[0].energy + p[1].energy) + (p[2].energy + p[3].energy);
     p[0].viscous = (p[0].viscous + p[1].viscous) + (p[2].viscous + p[3].viscous);
     p[0].rate = pack_larger(pack_larger(p[0].rate, p[1].rate), pack_larger(p[2].rate, p[3].rate));
@@ -420,7 +424,7 @@ ALWAYS_INLINE void quad_one_blocks(int mode, const KernelInput *input, ChunkSums
         PointPlace point[PACKS];
         ElementPlace place[PACKS];
         for (int i = 0; i < PACKS; i++) {
-            place[i] = find_place(input, block, i, 4, QUAD_RECORD);
+            place[i] = find_place(input, block, i, 4);
             const double *tail = place[i].geometry + GEOMETRY_POINT_SIZE * LANES;
             point[i] = (PointPlace){place[i].geometry, tail, place[i].history};
             quad_gradients(input, &place[i], &quad[i]);
@@ -431,7 +435,7 @@ ALWAYS_INLINE void quad_one_blocks(int mode, const KernelInput *input, ChunkSums
         natural_stress(mode, &in, PACKS, point, p);
         for (int i = 0; i < PACKS; i++) {
             one_point_forces(&p[i].p, &glass[i], &quad[i]);
-            write_record(QUAD_RECORD, quad[i].record, place[i].record);
+            quad_add(input, &place[i], &quad[i]);
             sum_point(input, block, i, &p[i], &packs);
         }
     }
@@ -449,21 +453,21 @@ static void kernel_quad_one(const KernelInput *input, ChunkSums *sums)
 
 static void surface_triangle(const KernelInput *input, int block, int pack, PackSums *sums)
 {
-    ElementPlace place = find_place(input, block, pack, 3, TRIANGLE_RECORD);
+    ElementPlace place = find_place(input, block, pack, 3);
     TrianglePack t;
-    for (int k = 0; k < 9; k++) t.record[k] = pack_of(0.0);
+    for (int k = 0; k < 9; k++) t.force[k / 3][k % 3] = pack_of(0.0);
     triangle_area(input, &place, pack_load(place.geometry), pack, &t, sums);
-    write_record(TRIANGLE_RECORD, t.record, place.record);
+    triangle_add(input, &place, &t);
 }
 
 static void surface_quad(const KernelInput *input, int block, int pack, PackSums *sums)
 {
-    ElementPlace place = find_place(input, block, pack, 4, QUAD_RECORD);
+    ElementPlace place = find_place(input, block, pack, 4);
     QuadPack q;
-    for (int k = 0; k < 12; k++) q.record[k] = pack_of(0.0);
+    for (int k = 0; k < 12; k++) q.force[k / 3][k % 3] = pack_of(0.0);
     quad_gradients(input, &place, &q);
     quad_area(pack_load(place.geometry), pack, &q, sums);
-    write_record(QUAD_RECORD, q.record, place.record);
+    quad_add(input, &place, &q);
 }
 
 static void kernel_surface(const KernelInput *input, ChunkSums *sums)

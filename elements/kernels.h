@@ -34,9 +34,9 @@ enum {
 /* History per point and lane: Green strain (11, 22, 12) and second Piola-Kirchhoff stress of the last step. */
 enum { HISTORY_POINT_SIZE = 6 };
 
-/* Records of the corner buffer, one per element [doubles]: a triangle has the stress forces of its corners (3 x 3) and
- * the area vector share that is theirs alike (3); a quad its forces (4 x 3) and the corners' shares (4 x 3). */
-enum { TRIANGLE_RECORD = 12, QUAD_RECORD = 24 };
+/* Corner sums: one row for each node of a segment (Model.row_start) [doubles]: the stress force, one unused, the area
+ * vector that takes the pressure, one unused. A row fills a cache line. */
+enum { ROW_SIZE = 8, ROW_AREA = 4 };
 
 /* Sums over one chunk (BILLOW_CHUNK blocks of one group). */
 typedef struct ChunkSums {
@@ -56,7 +56,7 @@ typedef struct KernelInput {
     double inverse_step;  /* 1 / dt of the last step; 0 at the start: no strain rate */
     const double *origin; /* (3) of the volume */
     double *history;      /* State.history */
-    double *corner;       /* corner buffer */
+    double *rows;         /* corner sums, added to (row_count x ROW_SIZE); NULL: left out */
     double *lane_rate;    /* squared frequency per padded element, or NULL */
     bool restart_ledger;  /* first call: histories are filled, no work is counted */
 } KernelInput;

@@ -1,4 +1,4 @@
-/* Groups and blocks of elements: kernel constants, node tables, corner lists. */
+/* Groups and blocks of elements: kernel constants, node tables. */
 #include <math.h>
 #include <string.h>
 
@@ -54,12 +54,10 @@ static void place_groups(Model *m)
         group->first_element = m->padded_count;
         group->first_chunk = m->chunk_count;
         group->history_offset = m->history_size;
-        group->corner_offset = m->corner_size;
         size_t blocks = (size_t)group->block_count;
         m->padded_count += group->block_count * LANES;
         m->chunk_count += (group->block_count + BILLOW_CHUNK - 1) / BILLOW_CHUNK;
         m->history_size += blocks * (size_t)group->history_size * LANES;
-        m->corner_size += blocks * LANES * (group->corner_count == 3 ? TRIANGLE_RECORD : QUAD_RECORD);
     }
 }
 
@@ -127,44 +125,6 @@ static int fill_group(Builder *b, ElementGroup *group, int first)
     return status;
 }
 
-/* Corners of each node in element order. */
-static int list_corners(Builder *b)
-{
-    Model *m = b->model;
-    size_t nodes = (size_t)m->node_count, corners = 0;
-    for (int g = 0; g < m->group_count; g++)
-        corners += (size_t)m->groups[g].element_count * (size_t)m->groups[g].corner_count;
-    m->corner_start = builder_alloc(b, nodes + 2, sizeof *m->corner_start);
-    m->corner_list = builder_alloc(b, corners + 1, sizeof *m->corner_list);
-    m->corner_set = builder_alloc(b, corners + 1, sizeof *m->corner_set);
-    m->node_pressure = builder_alloc(b, nodes + 1, sizeof *m->node_pressure);
-    if (!m->corner_start || !m->corner_list || !m->corner_set || !m->node_pressure) return -1;
-    for (int i = 0; i < b->record_count; i++)
-        for (int a = 0; a < b->records[i].corner_count; a++) m->corner_start[b->records[i].node[a] + 2]++;
-    for (size_t n = 0; n < nodes; n++) m->corner_start[n + 2] += m->corner_start[n + 1];
-    int first = 0;
-    for (int g = 0; g < m->group_count; g++) {
-        const ElementGroup *group = &m->groups[g];
-        for (int e = 0; e < group->element_count; e++) {
-            const ShellRecord *r = &b->records[b->order[first + e]];
-            bool triangle = group->corner_count == 3;
-            size_t record = group->corner_offset + (size_t)e * (triangle ? TRIANGLE_RECORD : QUAD_RECORD);
-            for (int a = 0; a < group->corner_count; a++) {
-                int32_t slot = m->corner_start[r->node[a] + 1]++;
-                m->corner_list[slot].force = (int32_t)record + 3 * a;
-                m->corner_list[slot].share = (int32_t)record + (triangle ? 9 : 12 + 3 * a);
-                m->corner_set[slot] = group->pressure_set;
-            }
-        }
-        first += group->element_count;
-    }
-    for (size_t n = 0; n < nodes; n++)
-        m->node_pressure[n] = m->corner_start[n + 1] > m->corner_start[n] ? m->corner_set[m->corner_start[n]] : -1;
-    for (size_t n = 0; n < nodes; n++)
-        if (m->node_pressure[n] < 0) m->node_pressure[n] = m->pressure_set_count;
-    return 0;
-}
-
 /* The shells as the writers see them, in deck order. */
 static int fill_elements(Builder *b)
 {
@@ -198,11 +158,6 @@ int build_groups(Builder *b)
     Model *m = b->model;
     if (fill_elements(b) || cut_groups(b)) return -1;
     place_groups(m);
-    if (m->corner_size > INT32_MAX) {
-        diagnostics_add(b->diagnostics, SEVERITY_ENVIRONMENT, BILLOW_NO_SOURCE, NULL,
-                        "the model has %d elements; more than about 15 million are beyond this build", b->shell_count);
-        return -1;
-    }
     int first = 0, status = 0;
     for (int g = 0; g < m->group_count; g++) {
         int filled = fill_group(b, &m->groups[g], first);
@@ -210,7 +165,7 @@ int build_groups(Builder *b)
         status |= filled;
         first += m->groups[g].element_count;
     }
-    return status || list_corners(b) ? -1 : 0;
+    return status || build_rows(b) ? -1 : 0;
 }
 
 /* DT2MS: mass is added to elements whose step is below the target (negative), or every element gets it (positive). */

@@ -65,6 +65,7 @@ int build_airbags(Builder *builder);       /* gas models; after build_surfaces *
 int build_output(Builder *builder);        /* termination, step control, output plan */
 int build_mass_scaling(Builder *builder);  /* DT2MS */
 int build_renumber(Builder *builder);      /* node and element order for locality */
-int build_groups(Builder *builder);        /* blocks, kernel constants, corner lists */
+int build_groups(Builder *builder);        /* blocks, kernel constants */
+int build_rows(Builder *builder);          /* segments and rows of corner sums */
 
 #endif

@@ -39,16 +39,19 @@ typedef struct ElementGroup {
     int first_element;      /* index of its first element in Model.element arrays' group order, padded by blocks */
     int first_chunk;        /* index of its first chunk of BILLOW_CHUNK blocks in the reductions */
     const int32_t *node;    /* nodes (block_count x corner_count x LANES) */
+    const int32_t *row;     /* rows of the corner sums, likewise */
     const double *geometry; /* kernel constants (block_count x geometry_size x LANES), layout in elements/membrane.h */
     int geometry_size;      /* doubles per lane */
     int history_size;       /* doubles per lane in State.history */
     size_t history_offset;  /* of block 0 in State.history [doubles] */
-    size_t corner_offset;   /* of its first element's record in the corner buffer [doubles]; elements/kernels.h */
     FabricLaw material;     /* constants of the law */
     bool has_history;
 } ElementGroup;
 
-enum { BILLOW_CHUNK = 4 }; /* blocks in one fixed partial sum */
+enum {
+    BILLOW_CHUNK = 4,         /* blocks in one fixed partial sum */
+    BILLOW_SEGMENT_CHUNKS = 4 /* chunks in one segment */
+};
 
 /* A set of pressures that act together on a surface: net pressure = sum of sign * source pressure. */
 typedef struct PressureSet {
@@ -56,11 +59,6 @@ typedef struct PressureSet {
     int source[4]; /* index into pressure sources: airbags first, then segment loads */
     int sign[4];   /* +1: the source is on the inner side of the stored orientation */
 } PressureSet;
-
-/* One corner of an element in the corner buffer: offsets of its stress force and of its area vector share. */
-typedef struct CornerPlace {
-    int32_t force, share;
-} CornerPlace;
 
 typedef struct Part {
     int id, deck_index;
@@ -123,10 +121,16 @@ typedef struct Model {
 
     int group_count, chunk_count, padded_count;
     ElementGroup *groups;
-    size_t history_size, corner_size; /* doubles */
-    int32_t *corner_start; /* CSR: corners of node n are corner_list[corner_start[n] .. corner_start[n + 1]) */
-    CornerPlace *corner_list;
-    int32_t *corner_set; /* pressure set of each corner, for nodes beyond free_count (parallel to corner_list) */
+    size_t history_size; /* doubles */
+
+    /* Segments: runs of chunks of one group, each worked on by one thread. A node has a row of corner sums in every
+     * segment that touches it; the rows of a segment follow each other. */
+    int segment_count, row_count;
+    int32_t *segment_chunk;  /* first chunk of each segment (segment_count + 1) */
+    int32_t *row_start;      /* first row of each segment (segment_count + 1) */
+    int32_t *row_set;        /* pressure set of each row, -1: none (row_count) */
+    int32_t *node_row_start; /* CSR: rows of node n are node_row[node_row_start[n] .. node_row_start[n + 1]) */
+    int32_t *node_row;       /* in the order of the segments (row_count) */
 
     double origin[3]; /* point about which volumes are summed [L] */
     int pressure_set_count;

@@ -48,11 +48,7 @@ void state_bind(const Model *model, State *state)
 static int initial_volumes(const Model *model, State *state, double *volume, double *area)
 {
     const KernelTable *kernels = kernels_select(NULL);
-    double *corner = memory_alloc(model->corner_size + 8, sizeof *corner);
-    if (!corner || !kernels) {
-        memory_free(corner);
-        return -1;
-    }
+    if (!kernels) return -1;
     for (int i = 0; i < model->airbag_count; i++)
         volume[i] = state->cap_volume[i] = surface_cap_volume(&model->airbags[i].closure, state->x, model->origin);
     for (int g = 0; g < model->group_count; g++) {
@@ -63,7 +59,6 @@ static int initial_volumes(const Model *model, State *state, double *volume, dou
                              .x = state->x,
                              .origin = model->origin,
                              .history = state->history,
-                             .corner = corner,
                              .restart_ledger = true};
         kernels_for(kernels, group)(&input, &sums);
         if (group->law == LAW_GREEN) {
@@ -78,7 +73,6 @@ static int initial_volumes(const Model *model, State *state, double *volume, dou
             area[set->source[s]] += sums.area;
         }
     }
-    memory_free(corner);
     return 0;
 }
 

@@ -34,29 +34,37 @@ void step_fail(Workspace *w, const char *advice, const char *format, ...)
     snprintf(w->failure->advice, sizeof w->failure->advice, "%s", advice);
 }
 
-/* Chunk number -> group and blocks; chunks of one group follow each other. */
+/* One chunk: blocks of one group. */
+static void run_chunk(Workspace *w, const ElementGroup *group, int chunk)
+{
+    const Model *m = w->model;
+    int block = (chunk - group->first_chunk) * BILLOW_CHUNK, last = block + BILLOW_CHUNK;
+    double step = w->state->clock->step;
+    KernelInput input = {.group = group,
+                         .first_block = block,
+                         .end_block = last < group->block_count ? last : group->block_count,
+                         .x = w->state->x,
+                         .inverse_step = step > 0.0 ? 1.0 / step : 0.0,
+                         .origin = m->origin,
+                         .history = w->state->history,
+                         .rows = w->rows,
+                         .restart_ledger = w->state->clock->cycle == 0};
+    w->chunks[chunk] = (ChunkSums){0};
+    kernels_for(w->kernels, group)(&input, &w->chunks[chunk]);
+}
+
+/* A thread has the segments that begin in its share of the chunks. */
 void step_elements(Workspace *w, int thread, int threads)
 {
     const Model *m = w->model;
-    int first = (int)((int64_t)m->chunk_count * thread / threads),
-        end = (int)((int64_t)m->chunk_count * (thread + 1) / threads);
     int g = 0;
-    double step = w->state->clock->step;
-    for (int c = first; c < end; c++) {
-        while (g + 1 < m->group_count && m->groups[g + 1].first_chunk <= c) g++;
-        const ElementGroup *group = &m->groups[g];
-        int block = (c - group->first_chunk) * BILLOW_CHUNK, last = block + BILLOW_CHUNK;
-        KernelInput input = {.group = group,
-                             .first_block = block,
-                             .end_block = last < group->block_count ? last : group->block_count,
-                             .x = w->state->x,
-                             .inverse_step = step > 0.0 ? 1.0 / step : 0.0,
-                             .origin = m->origin,
-                             .history = w->state->history,
-                             .corner = w->corner,
-                             .restart_ledger = w->state->clock->cycle == 0};
-        w->chunks[c] = (ChunkSums){0};
-        kernels_for(w->kernels, group)(&input, &w->chunks[c]);
+    for (int s = 0; s < m->segment_count; s++) {
+        int first = m->segment_chunk[s], end = m->segment_chunk[s + 1];
+        if ((int64_t)first * threads / m->chunk_count != thread) continue;
+        while (g + 1 < m->group_count && m->groups[g + 1].first_chunk <= first) g++;
+        memset(w->rows + ROW_SIZE * (ptrdiff_t)m->row_start[s], 0,
+               ROW_SIZE * (size_t)(m->row_start[s + 1] - m->row_start[s]) * sizeof *w->rows);
+        for (int c = first; c < end; c++) run_chunk(w, &m->groups[g], c);
     }
 }
 
@@ -67,7 +75,7 @@ static int allocate(Workspace *w)
            bags = (size_t)m->airbag_count + 1, classes = 3 * (size_t)m->loads.class_count + 3,
            special = (size_t)(m->moving_count - m->free_count);
     w->node_chunk_count = (m->free_count + BILLOW_NODE_CHUNK - 1) / BILLOW_NODE_CHUNK;
-    w->corner = memory_alloc(m->corner_size + 8, sizeof *w->corner);
+    w->rows = memory_alloc(ROW_SIZE * ((size_t)m->row_count + 1), sizeof *w->rows);
     w->chunks = memory_alloc((size_t)m->chunk_count + 1, sizeof *w->chunks);
     w->node_sums = memory_alloc((size_t)w->node_chunk_count + 1, sizeof *w->node_sums);
     w->bag_pressure = memory_alloc(sets, sizeof(double));
@@ -94,7 +102,7 @@ static int allocate(Workspace *w)
     w->drag = memory_alloc(3 * special + 1, sizeof(double));
     w->newton = memory_alloc(3 * special + 1, sizeof(double));
     w->gas_pass = memory_alloc(((size_t)w->node_chunk_count + 1) * bags, sizeof *w->gas_pass);
-    void *needed[] = {w->corner,        w->chunks,         w->node_sums,    w->bag_pressure,    w->load_pressure,
+    void *needed[] = {w->rows,          w->chunks,         w->node_sums,    w->bag_pressure,    w->load_pressure,
                       w->stagnation,    w->set_volume,     w->set_area,     w->source_pressure, w->class_gravity,
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
@@ -107,7 +115,7 @@ static int allocate(Workspace *w)
 
 static void release(Workspace *w)
 {
-    void *blocks[] = {w->corner,        w->chunks,         w->node_sums,    w->bag_pressure,    w->load_pressure,
+    void *blocks[] = {w->rows,          w->chunks,         w->node_sums,    w->bag_pressure,    w->load_pressure,
                       w->stagnation,    w->set_volume,     w->set_area,     w->source_pressure, w->class_gravity,
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,

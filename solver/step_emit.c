@@ -40,7 +40,6 @@ static int find_critical(Workspace *w)
                          .x = w->state->x,
                          .origin = m->origin,
                          .history = w->state->history,
-                         .corner = w->corner,
                          .lane_rate = w->lane_rate};
     ChunkSums sums = {0};
     kernels_for(w->kernels, group)(&input, &sums);

@@ -11,18 +11,19 @@ static void add_node(const Workspace *w, int node, GasPass *bags)
 {
     const Model *m = w->model;
     double f[3] = {0}, inverse = m->inverse_mass[node];
-    for (int32_t k = m->corner_start[node]; k < m->corner_start[node + 1]; k++) {
-        const double *force = w->corner + m->corner_list[k].force, *share = w->corner + m->corner_list[k].share;
-        int set = m->corner_set[k];
+    for (int32_t k = m->node_row_start[node]; k < m->node_row_start[node + 1]; k++) {
+        const double *force = w->rows + ROW_SIZE * (ptrdiff_t)m->node_row[k], *share = force + ROW_AREA;
+        int set = m->row_set[m->node_row[k]];
         double pressure = set < 0 ? 0.0 : w->bag_pressure[set] + w->load_pressure[set];
         for (int i = 0; i < 3; i++) f[i] += force[i] + pressure * share[i];
     }
     for (int b = 0; b < m->airbag_count; b++) {
         double s[3] = {0};
-        for (int32_t k = m->corner_start[node]; k < m->corner_start[node + 1]; k++) {
-            if (m->corner_set[k] < 0) continue;
-            const PressureSet *set = &m->pressure_sets[m->corner_set[k]];
-            const double *share = w->corner + m->corner_list[k].share;
+        for (int32_t k = m->node_row_start[node]; k < m->node_row_start[node + 1]; k++) {
+            int row = m->node_row[k];
+            if (m->row_set[row] < 0) continue;
+            const PressureSet *set = &m->pressure_sets[m->row_set[row]];
+            const double *share = w->rows + ROW_SIZE * (ptrdiff_t)row + ROW_AREA;
             for (int j = 0; j < set->count; j++)
                 for (int i = 0; set->source[j] == b && i < 3; i++) s[i] += set->sign[j] * share[i];
         }

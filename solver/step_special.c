@@ -13,9 +13,9 @@ static void gather_special(Workspace *w, NodeSums *t, bool after)
         double *f = w->force + 3 * (ptrdiff_t)node;
         const double *vn = v + 3 * (ptrdiff_t)node;
         double stress[3] = {0}, bag_force[3] = {0}, load_force[3] = {0}, area[3] = {0};
-        for (int32_t k = m->corner_start[node]; k < m->corner_start[node + 1]; k++) {
-            const double *force = w->corner + m->corner_list[k].force, *share = w->corner + m->corner_list[k].share;
-            int set = m->corner_set[k];
+        for (int32_t k = m->node_row_start[node]; k < m->node_row_start[node + 1]; k++) {
+            const double *force = w->rows + ROW_SIZE * (ptrdiff_t)m->node_row[k], *share = force + ROW_AREA;
+            int set = m->row_set[m->node_row[k]];
             double bag = set < 0 ? 0.0 : w->bag_pressure[set], load = set < 0 ? 0.0 : w->load_pressure[set];
             for (int i = 0; i < 3; i++) {
                 double s = share[i];

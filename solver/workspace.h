@@ -54,7 +54,7 @@ typedef struct Workspace {
     const KernelTable *kernels;
     StageTimes *times;
     Failure *failure;
-    double *corner;                       /* (corner_size + 8) */
+    double *rows;                         /* corner sums (row_count x ROW_SIZE) */
     ChunkSums *chunks;                    /* (chunk_count) */
     NodeSums *node_sums;                  /* one for each chunk of free nodes, the last for the special ones */
     int node_chunk_count;                 /* chunks of free nodes */
