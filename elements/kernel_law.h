@@ -170,7 +170,7 @@ typedef struct BiotState {
     PackTensor stretch; /* U in material axes */
     Pack jacobian;      /* J = det U */
     Pack pull;          /* 1/(J tr U) */
-    Pack skew;          /* (l1 - l2)/(l1 + l2) of the principal stretches */
+    Pack wide;          /* l1/l2 */
 } BiotState;
 
 /* U = (C + J 1)/tr U with tr U = sqrt(tr C + 2 J) (eq. F1): no eigenvectors. */
@@ -186,7 +186,7 @@ ALWAYS_INLINE BiotState biot_state(PackTensor c)
     f.stretch.a22 = (c.a22 + f.jacobian) * by_sum;
     f.stretch.a12 = c.a12 * by_sum;
     f.pull = by_jacobian * by_sum;
-    f.skew = 2.0 * pack_root(half * half + c.a12 * c.a12) * (by_sum * by_sum);
+    f.wide = (0.5 * trace + pack_root(half * half + c.a12 * c.a12)) * by_jacobian;
     return f;
 }
 

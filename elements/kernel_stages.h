@@ -73,11 +73,11 @@ ALWAYS_INLINE PackTensor natural_directions(const double *point, PackTensor s)
 ALWAYS_INLINE PackTensor stress_biot(int mode, const LawInput *in, const PointPlace *place, const BiotState *f,
                                      PointPack *p)
 {
-    Pack major, shear = (2.0 * in->law.whole.d33) * lane_values(place->tail, GEOMETRY_STRESS_RATE);
+    Pack major;
     PackTensor s =
         pull_back_biot(biot_stress(&in->law, mode & MODE_TENSION_FIELD, mode & MODE_LINER, f->stretch, &major), f);
     Pack reference = lane_values(place->tail, GEOMETRY_RATE);
-    Pack stretched = (1.0 + f->skew) * (reference + f->skew * shear);
+    Pack stretched = f->wide * reference;
     /* a slack element keeps its reference frequency, or what its liner has: it may be taut in the next cycle */
     if (mode & MODE_TENSION_FIELD)
         stretched = pack_where_positive(major, stretched, pack_larger(reference, in->law.slack_share * stretched));
