@@ -75,13 +75,19 @@ ALWAYS_INLINE Pack major_value(PackTensor t)
     return 0.5 * (t.a11 + t.a22) + pack_root(half * half + t.a12 * t.a12);
 }
 
+/* A bound of the larger principal value, not below 0: Gershgorin's circles. */
+ALWAYS_INLINE Pack major_bound(PackTensor t)
+{
+    return pack_larger(pack_larger(t.a11, t.a22) + pack_absolute(t.a12), pack_of(0.0));
+}
+
 /* Removes negative principal values: the projection of t onto the tensile cone (eq. F7). *major receives the largest
  * principal value before. */
 ALWAYS_INLINE PackTensor remove_compression(PackTensor t, Pack *major)
 {
     Pack mean = 0.5 * (t.a11 + t.a22), half = 0.5 * (t.a11 - t.a22);
-    Pack square = half * half + t.a12 * t.a12 + BILLOW_TINY, by_radius = pack_reciprocal_root(square);
-    Pack radius = square * by_radius, pull = 0.5 * pack_larger(mean + radius, pack_of(0.0)), scale = pull * by_radius;
+    Pack radius = pack_root(half * half + t.a12 * t.a12 + BILLOW_TINY);
+    Pack pull = 0.5 * pack_larger(mean + radius, pack_of(0.0)), scale = pull / radius;
     PackTensor uniaxial = {pull + scale * half, pull - scale * half, scale * t.a12};
     *major = mean + radius;
     return tensor_where_positive(radius - mean, uniaxial, t); /* nothing to remove: keep the very bits */

@@ -81,7 +81,7 @@ ALWAYS_INLINE PackTensor stress_biot(int mode, const LawInput *in, const PointPl
     /* a slack element keeps its reference frequency, or what its liner has: it may be taut in the next cycle */
     if (mode & MODE_TENSION_FIELD)
         stretched = pack_where_positive(major, stretched, pack_larger(reference, in->law.slack_share * stretched));
-    p->rate = stretched + pack_larger(major_value(s), pack_of(0.0)) * lane_values(place->tail, GEOMETRY_STRESS_RATE);
+    p->rate = stretched + major_bound(s) * lane_values(place->tail, GEOMETRY_STRESS_RATE);
     return s;
 }
 
@@ -106,25 +106,23 @@ ALWAYS_INLINE PackTensor stress_green(int mode, const LawInput *in, const PointP
     return r.stress;
 }
 
-/* Damping and the stress-work ledger: dW = (S_n + S_n+1)/2 : (E_n+1 - E_n) (eq. E12 to E14). */
+/* Damping and the stress-work ledger: dW = (S_n + S_n+1)/2 : (E_n+1 - E_n), 2 dE = dC (eq. E12 to E14). */
 ALWAYS_INLINE PackTensor keep_history(int mode, const LawInput *in, const PointPlace *place, PackTensor s, PointPack *p)
 {
     double *h = place->history;
-    PackTensor e = green_strain(p->c);
-    PackTensor change = {e.a11 - lane_values(h, 0), e.a22 - lane_values(h, 1), e.a12 - lane_values(h, 2)};
+    PackTensor change = {p->c.a11 - lane_values(h, 0), p->c.a22 - lane_values(h, 1), p->c.a12 - lane_values(h, 2)};
     if (in->law.damping > 0.0) {
-        Pack factor = lane_values(place->tail, GEOMETRY_VISCOSITY) * in->inverse_step;
+        Pack factor = (0.5 * in->inverse_step) * lane_values(place->tail, GEOMETRY_VISCOSITY);
         PackTensor rate = {factor * change.a11, factor * change.a22, factor * change.a12};
         s = add_tensors(s, apply_moduli(&in->law.whole, rate));
     }
-    PackTensor mean = {0.5 * (s.a11 + lane_values(h, 3)), 0.5 * (s.a22 + lane_values(h, 4)),
-                       0.5 * (s.a12 + lane_values(h, 5))};
-    Pack work = in->count_work * (lane_values(place->point, GEOMETRY_WEIGHT) * contract(mean, change));
+    PackTensor sum = {s.a11 + lane_values(h, 3), s.a22 + lane_values(h, 4), s.a12 + lane_values(h, 5)};
+    Pack work = (0.25 * in->count_work) * lane_values(place->point, GEOMETRY_WEIGHT) * contract(sum, change);
     if (mode & (MODE_BIOT | MODE_LOGARITHMIC))
         p->energy = work;
     else
         p->viscous = work; /* less the stored energy's change this is what was dissipated */
-    const Pack kept[HISTORY_POINT_SIZE] = {e.a11, e.a22, e.a12, s.a11, s.a22, s.a12};
+    const Pack kept[HISTORY_POINT_SIZE] = {p->c.a11, p->c.a22, p->c.a12, s.a11, s.a22, s.a12};
     for (int i = 0; i < HISTORY_POINT_SIZE; i++) pack_store(h + (ptrdiff_t)i * LANES, kept[i]);
     return s;
 }

@@ -33,7 +33,7 @@ enum {
     GEOMETRY_HOURGLASS_SIZE,
 };
 
-/* History per point and lane: Green strain (11, 22, 12) and second Piola-Kirchhoff stress of the last step. */
+/* History per point and lane: C (11, 22, 12) and second Piola-Kirchhoff stress of the last step. */
 enum { HISTORY_POINT_SIZE = 6 };
 
 /* Corner sums: one row for each node of a segment (Model.row_start) [doubles]: the stress force, one unused, the area
