@@ -313,7 +313,6 @@ GeometryStatus geometry_fill(const ElementInput *input, double sign, double *lan
     double rate = geometry_rate(input);
     tail[GEOMETRY_RATE * BILLOW_LANES] = rate;
     tail[GEOMETRY_STRESS_RATE * BILLOW_LANES] = spread * volume * corners / input->mass;
-    tail[GEOMETRY_VISCOSITY * BILLOW_LANES] = rate > 0.0 ? input->law->damping * 2.0 / sqrt(rate) : 0.0;
     tail[GEOMETRY_SIGN * BILLOW_LANES] = sign;
     if (input->kind == ELEMENT_QUAD_ONE || has_fold(input)) {
         double *constant = tail + GEOMETRY_TAIL_SIZE * BILLOW_LANES;

@@ -187,7 +187,7 @@ ALWAYS_INLINE BiotState biot_state(PackTensor c)
     Pack det = pack_larger(c.a11 * c.a22 - c.a12 * c.a12, BILLOW_LEAST_SQUARED_STRETCH * trace);
     Pack by_jacobian = pack_reciprocal_root(det);
     f.jacobian = det * by_jacobian;
-    Pack by_sum = pack_reciprocal_root(trace + 2.0 * f.jacobian); /* 1/tr U */
+    Pack by_sum = 1.0 / pack_root(trace + 2.0 * f.jacobian); /* 1/tr U */
     f.stretch.a11 = (c.a11 + f.jacobian) * by_sum;
     f.stretch.a22 = (c.a22 + f.jacobian) * by_sum;
     f.stretch.a12 = c.a12 * by_sum;

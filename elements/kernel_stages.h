@@ -8,7 +8,12 @@
 #include "elements/kernel_law.h"
 #include "elements/kernels.h"
 
-enum { LANES = BILLOW_LANES, PACKS = BILLOW_LANES / PACK_WIDTH };
+enum {
+    LANES = BILLOW_LANES,
+    PACKS = BILLOW_LANES / PACK_WIDTH, /* packs in a block */
+    BLOCKS_AT_ONCE = 4,                /* blocks that go through the stages together, of elements with one point */
+    STREAMS = BLOCKS_AT_ONCE * PACKS,  /* their packs */
+};
 
 /* Law constants of one call. */
 typedef struct LawInput {
@@ -112,7 +117,9 @@ ALWAYS_INLINE PackTensor keep_history(int mode, const LawInput *in, const PointP
     double *h = place->history;
     PackTensor change = {p->c.a11 - lane_values(h, 0), p->c.a22 - lane_values(h, 1), p->c.a12 - lane_values(h, 2)};
     if (in->law.damping > 0.0) {
-        Pack factor = (0.5 * in->inverse_step) * lane_values(place->tail, GEOMETRY_VISCOSITY);
+        /* DAMP 2/omega / dt of the strain rate (eq. E12); lanes beyond the last element have no frequency */
+        Pack factor =
+            (in->law.damping * in->inverse_step) / pack_root(lane_values(place->tail, GEOMETRY_RATE) + BILLOW_TINY);
         PackTensor rate = {factor * change.a11, factor * change.a22, factor * change.a12};
         s = add_tensors(s, apply_moduli(&in->law.whole, rate));
     }
@@ -131,7 +138,7 @@ ALWAYS_INLINE PackTensor keep_history(int mode, const LawInput *in, const PointP
 ALWAYS_INLINE void natural_stress(int mode, const LawInput *in, int count, const PointPlace *place,
                                   PointPack *restrict p)
 {
-    BiotState state[PACKS > 4 ? PACKS : 4];
+    BiotState state[STREAMS];
     if (mode & MODE_BIOT)
         for (int i = 0; i < count; i++) state[i] = biot_state(p[i].c);
     for (int i = 0; i < count; i++) {

@@ -54,7 +54,7 @@ ALWAYS_INLINE void sum_point(const KernelInput *input, int block, int i, const P
     sums->viscous.part[i % SUM_PACKS] += p->viscous;
     sums->rate = pack_larger(p->rate, sums->rate);
     if (input->lane_rate) {
-        double *rate = input->lane_rate + input->group->first_element + (ptrdiff_t)block * LANES + i * PACK_WIDTH;
+        double *rate = input->lane_rate + (ptrdiff_t)(block - input->first_block) * LANES + i * PACK_WIDTH;
         for (int l = 0; l < PACK_WIDTH; l++) rate[l] = p->rate[l];
     }
 }
@@ -140,6 +140,13 @@ ALWAYS_INLINE ElementPlace find_place(const KernelInput *input, int block, int p
     return place;
 }
 
+/* Packs of the blocks that go through the stages together, from this block on. */
+ALWAYS_INLINE int count_streams(const KernelInput *input, int block)
+{
+    int left = input->end_block - block;
+    return PACKS * (left < BLOCKS_AT_ONCE ? left : BLOCKS_AT_ONCE);
+}
+
 ALWAYS_INLINE Pack dot(const Pack a[3], const Pack b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -210,23 +217,24 @@ ALWAYS_INLINE void triangle_blocks(int mode, const KernelInput *input, ChunkSums
 {
     const LawInput in = make_law_input(input);
     PackSums packs = {0};
-    for (int block = input->first_block; block < input->end_block; block++) {
-        TrianglePack t[PACKS];
-        PointPack p[PACKS];
-        PointPlace point[PACKS];
-        ElementPlace place[PACKS];
-        for (int i = 0; i < PACKS; i++) {
-            place[i] = find_place(input, block, i, 3);
+    for (int block = input->first_block; block < input->end_block; block += BLOCKS_AT_ONCE) {
+        TrianglePack t[STREAMS];
+        PointPack p[STREAMS];
+        PointPlace point[STREAMS];
+        ElementPlace place[STREAMS];
+        int streams = count_streams(input, block);
+        for (int i = 0; i < streams; i++) {
+            place[i] = find_place(input, block + i / PACKS, i % PACKS, 3);
             const double *tail = place[i].geometry + GEOMETRY_POINT_SIZE * LANES;
             point[i] = (PointPlace){place[i].geometry, tail, place[i].history};
             triangle_area(input, &place[i], lane_values(tail, GEOMETRY_SIGN), i, &t[i], &packs);
             p[i].c = triangle_metric(place[i].geometry, &t[i]);
         }
-        natural_stress(mode, &in, PACKS, point, p);
-        for (int i = 0; i < PACKS; i++) {
+        natural_stress(mode, &in, streams, point, p);
+        for (int i = 0; i < streams; i++) {
             triangle_forces(&p[i].p, &t[i]);
             triangle_add(input, &place[i], &t[i]);
-            sum_point(input, block, i, &p[i], &packs);
+            sum_point(input, block + i / PACKS, i % PACKS, &p[i], &packs);
         }
     }
     finish_sums(&packs, sums);
@@ -450,14 +458,15 @@ ALWAYS_INLINE void quad_one_blocks(int mode, const KernelInput *input, ChunkSums
 {
     const LawInput in = make_law_input(input);
     PackSums packs = {0};
-    for (int block = input->first_block; block < input->end_block; block++) {
-        QuadPack quad[PACKS];
-        HourglassPack glass[PACKS];
-        PointPack p[PACKS];
-        PointPlace point[PACKS];
-        ElementPlace place[PACKS];
-        for (int i = 0; i < PACKS; i++) {
-            place[i] = find_place(input, block, i, 4);
+    for (int block = input->first_block; block < input->end_block; block += BLOCKS_AT_ONCE) {
+        QuadPack quad[STREAMS];
+        HourglassPack glass[STREAMS];
+        PointPack p[STREAMS];
+        PointPlace point[STREAMS];
+        ElementPlace place[STREAMS];
+        int streams = count_streams(input, block);
+        for (int i = 0; i < streams; i++) {
+            place[i] = find_place(input, block + i / PACKS, i % PACKS, 4);
             const double *tail = place[i].geometry + GEOMETRY_POINT_SIZE * LANES;
             point[i] = (PointPlace){place[i].geometry, tail, place[i].history};
             quad_gradients(input, &place[i], &quad[i]);
@@ -465,11 +474,11 @@ ALWAYS_INLINE void quad_one_blocks(int mode, const KernelInput *input, ChunkSums
             p[i].c = material_metric(
                 place[i].geometry, one_point_metric(tail + GEOMETRY_TAIL_SIZE * LANES, &quad[i], i, &glass[i], &packs));
         }
-        natural_stress(mode, &in, PACKS, point, p);
-        for (int i = 0; i < PACKS; i++) {
+        natural_stress(mode, &in, streams, point, p);
+        for (int i = 0; i < streams; i++) {
             one_point_forces(&p[i].p, &glass[i], &quad[i]);
             quad_add(input, &place[i], &quad[i]);
-            sum_point(input, block, i, &p[i], &packs);
+            sum_point(input, block + i / PACKS, i % PACKS, &p[i], &packs);
         }
     }
     finish_sums(&packs, sums);

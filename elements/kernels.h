@@ -20,7 +20,6 @@ enum {
     /* after the points: */
     GEOMETRY_RATE = 0,    /* exact largest squared frequency of the element in its reference state [1/T2] */
     GEOMETRY_STRESS_RATE, /* bound of the geometric stiffness: squared frequency per unit of stress [1/T2/(F/L2)] */
-    GEOMETRY_VISCOSITY,   /* DAMP x 2 / largest frequency [T] */
     GEOMETRY_SIGN,        /* +1 or -1: orientation of the area vector; 0 in padding lanes */
     GEOMETRY_TAIL_SIZE,
     /* after the tail, quads that use the hourglass vector: one point, or FORM 0, 1 */
@@ -59,7 +58,7 @@ typedef struct KernelInput {
     const double *origin; /* (3) of the volume */
     double *history;      /* State.history */
     double *rows;         /* corner sums, added to (row_count x ROW_SIZE); NULL: left out */
-    double *lane_rate;    /* squared frequency per padded element, or NULL */
+    double *lane_rate;    /* squared frequency per lane of the blocks, or NULL */
     bool restart_ledger;  /* first call: histories are filled, no work is counted */
 } KernelInput;
 

@@ -14,7 +14,7 @@ enum BillowExit {
 };
 
 enum {
-    BILLOW_LANES = 32, /* elements in one block; kernels work on whole blocks */
+    BILLOW_LANES = 8, /* elements in one block; kernels work on whole blocks */
     BILLOW_MAX_THREADS = 256,
     BILLOW_TITLE_LENGTH = 81, /* deck titles and headings, terminating zero included */
 };

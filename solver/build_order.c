@@ -1,5 +1,4 @@
-/* Numbering for locality: nodes by breadth-first levels inside their class, elements by their nodes inside their group.
- */
+/* Numbering for locality: nodes by compact patches inside their class, elements by their nodes inside their group. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,21 +24,22 @@ static int build_adjacency(const Builder *b, Adjacency *a)
     return 0;
 }
 
-/* Appends the nodes reached from seed to queue, level by level; returns the last, the farthest. */
-static int32_t walk_levels(const Builder *b, const Adjacency *a, int32_t seed, unsigned char *seen, unsigned char mark,
-                           int32_t *queue, int *count)
+/* Appends the nodes with the label inside that are reached from seed to queue, level by level, and gives them the label
+ * reached; returns the last, the farthest. */
+static int32_t walk_levels(const Builder *b, const Adjacency *a, int32_t seed, int32_t *label, int32_t inside,
+                           int32_t reached, int32_t *queue, int *count)
 {
     int head = *count;
     queue[(*count)++] = seed;
-    seen[seed] = mark;
+    label[seed] = reached;
     while (head < *count) {
         int32_t node = queue[head++];
         for (int32_t k = a->start[node]; k < a->start[node + 1]; k++) {
             const ShellRecord *record = &b->records[a->record[k]];
             for (int c = 0; c < record->corner_count; c++) {
                 int32_t next = record->node[c];
-                if (seen[next] == mark) continue;
-                seen[next] = mark;
+                if (label[next] != inside) continue;
+                label[next] = reached;
                 queue[(*count)++] = next;
             }
         }
@@ -47,28 +47,45 @@ static int32_t walk_levels(const Builder *b, const Adjacency *a, int32_t seed, u
     return queue[*count - 1];
 }
 
-/* position[node]: place of each node in the breadth-first order, every component from one of its ends. */
-static int level_order(const Builder *b, const Adjacency *a, int32_t *position)
+/* Sorts the nodes queue[first .. end) by breadth-first levels, every component from one of its ends. *label: the last
+ * label in use. */
+static void sort_levels(const Builder *b, const Adjacency *a, int32_t *queue, int32_t *nodes, int first, int end,
+                        int32_t *labels, int32_t *label)
 {
-    unsigned char *seen = memory_alloc((size_t)b->node_count, 1);
-    int32_t *queue = memory_alloc((size_t)b->node_count + 1, sizeof *queue);
-    int count = 0;
-    if (!seen || !queue) {
-        memory_free(seen);
-        memory_free(queue);
-        return -1;
-    }
-    for (int32_t n = 0; n < b->node_count; n++) {
-        if (seen[n]) continue;
+    int32_t inside = ++*label, seen = ++*label, done = ++*label;
+    int count = first;
+    memcpy(nodes, queue + first, (size_t)(end - first) * sizeof *nodes);
+    for (int i = 0; i < end - first; i++) labels[nodes[i]] = inside;
+    for (int i = 0; i < end - first; i++) {
+        if (labels[nodes[i]] != inside) continue;
         int start = count;
-        int32_t far = walk_levels(b, a, n, seen, 1, queue, &count);
+        int32_t far = walk_levels(b, a, nodes[i], labels, inside, seen, queue, &count);
         count = start;
-        walk_levels(b, a, far, seen, 2, queue, &count);
+        walk_levels(b, a, far, labels, seen, done, queue, &count);
     }
-    for (int i = 0; i < count; i++) position[queue[i]] = i;
-    memory_free(seen);
+}
+
+enum { PATCH_NODES = 64 }; /* patches of this size are not cut further */
+
+/* position[node]: place of each node in an order of compact patches: levels, each half by levels of its own, and so on.
+ * Segments of elements then share few nodes with others. */
+static int patch_order(const Builder *b, const Adjacency *a, int32_t *position)
+{
+    size_t nodes = (size_t)b->node_count + 1;
+    int32_t *labels = memory_alloc(nodes, sizeof *labels), *queue = memory_alloc(nodes, sizeof *queue),
+            *scratch = memory_alloc(nodes, sizeof *scratch), label = 0;
+    int status = labels && queue && scratch ? 0 : -1;
+    for (int i = 0; !status && i < b->node_count; i++) queue[i] = i;
+    /* pieces of count / parts nodes, parts = 1, 2, 4 ... */
+    for (int64_t parts = 1; !status && b->node_count / parts > PATCH_NODES; parts *= 2)
+        for (int64_t part = 0; part < parts; part++)
+            sort_levels(b, a, queue, scratch, (int)(b->node_count * part / parts),
+                        (int)(b->node_count * (part + 1) / parts), labels, &label);
+    for (int i = 0; !status && i < b->node_count; i++) position[queue[i]] = i;
+    memory_free(labels);
     memory_free(queue);
-    return 0;
+    memory_free(scratch);
+    return status;
 }
 
 enum { CLASS_FREE, CLASS_SPECIAL, CLASS_FIXED };
@@ -169,14 +186,17 @@ static int fill_nodes(Builder *b, const NodeKey *keys)
 {
     Model *m = b->model;
     size_t n = (size_t)b->node_count;
+    bool moves = false;
     m->node_count = b->node_count;
     m->node_id = builder_alloc(b, n, sizeof *m->node_id);
     m->deck_node = builder_alloc(b, n, sizeof *m->deck_node);
     m->initial = builder_alloc(b, 3 * n, sizeof *m->initial);
-    m->velocity = builder_alloc(b, 3 * n, sizeof *m->velocity);
+    for (size_t i = 0; i < 3 * n && !moves; i++) moves = b->motion.velocity[i] != 0.0;
+    m->velocity = moves ? builder_alloc(b, 3 * n, sizeof *m->velocity) : NULL;
     m->mass = builder_alloc(b, n, sizeof *m->mass);
     m->inverse_mass = builder_alloc(b, n, sizeof *m->inverse_mass);
-    if (!m->node_id || !m->deck_node || !m->initial || !m->velocity || !m->mass || !m->inverse_mass) return -1;
+    if (!m->node_id || !m->deck_node || !m->initial || (moves && !m->velocity) || !m->mass || !m->inverse_mass)
+        return -1;
     for (size_t i = 0; i < n; i++) {
         size_t old = (size_t)keys[i].node;
         m->node_id[i] = b->definitions->nodes.items[old].id;
@@ -185,7 +205,7 @@ static int fill_nodes(Builder *b, const NodeKey *keys)
         m->inverse_mass[i] = b->mass[old] > 0.0 && keys[i].class != CLASS_FIXED ? 1.0 / b->mass[old] : 0.0;
         for (size_t k = 0; k < 3; k++) {
             m->initial[3 * i + k] = b->x[3 * old + k];
-            m->velocity[3 * i + k] = keys[i].class == CLASS_FIXED ? 0.0 : b->motion.velocity[3 * old + k];
+            if (moves) m->velocity[3 * i + k] = keys[i].class == CLASS_FIXED ? 0.0 : b->motion.velocity[3 * old + k];
         }
         if (keys[i].class == CLASS_FREE) m->free_count++;
         if (keys[i].class != CLASS_FIXED) m->moving_count++;
@@ -202,7 +222,7 @@ int build_renumber(Builder *b)
     unsigned char *class = memory_alloc(n, 1);
     NodeKey *keys = memory_alloc(n, sizeof *keys);
     int status = position && new_index && class && keys && !build_adjacency(b, &adjacency) ? 0 : -1;
-    if (!status) status = level_order(b, &adjacency, position);
+    if (!status) status = patch_order(b, &adjacency, position);
     if (!status) {
         classify_nodes(b, &adjacency, class);
         for (int32_t i = 0; i < b->node_count; i++) keys[i] = (NodeKey){class[i], position[i], i};

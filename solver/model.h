@@ -51,7 +51,7 @@ typedef struct ElementGroup {
 } ElementGroup;
 
 enum {
-    BILLOW_CHUNK = 4,         /* blocks in one fixed partial sum */
+    BILLOW_CHUNK = 16,        /* blocks in one fixed partial sum */
     BILLOW_SEGMENT_CHUNKS = 4 /* chunks in one segment */
 };
 
@@ -114,7 +114,7 @@ typedef struct Model {
     int *deck_node;         /* internal index of the deck's i-th node (node_count) */
     double *initial;        /* initial position (node_count x 3) [L] */
     double *reference;      /* reference position X (node_count x 3) [L] */
-    double *velocity;       /* initial velocity (node_count x 3) [L/T] */
+    double *velocity;       /* initial velocity (node_count x 3) [L/T]; NULL: at rest */
     double *mass;           /* lumped, mass scaling included (node_count) [M] */
     double *inverse_mass;   /* (node_count); 0 for massless nodes */
     int32_t *node_pressure; /* pressure set of nodes in the lean loop (node_count); pressure_set_count: none */

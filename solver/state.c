@@ -126,7 +126,7 @@ int state_create(const Model *model, State *state)
     if (!state->buffer) return -1;
     state_bind(model, state);
     memcpy(state->x, model->initial, 3 * (size_t)model->node_count * sizeof *state->x);
-    memcpy(state->v, model->velocity, 3 * (size_t)model->node_count * sizeof *state->v);
+    if (model->velocity) memcpy(state->v, model->velocity, 3 * (size_t)model->node_count * sizeof *state->v);
     for (int i = 0; i < model->rigid_body_count; i++) rigid_body_start(&model->rigid_bodies[i], &state->rigid[i]);
     for (int i = 0; i < model->wall_count; i++) state->wall[i].speed = model->walls[i].speed;
     if (start_gas(model, state)) {

@@ -91,12 +91,12 @@ static int allocate(Workspace *w)
     w->bag_volume = memory_alloc(bags, sizeof(double));
     w->bag_area = memory_alloc(bags, sizeof(double));
     w->force = memory_alloc(nodes, sizeof(double));
-    w->before = memory_alloc(nodes, sizeof(double));
     w->acceleration = memory_alloc(nodes, sizeof(double));
+    w->before = m->has_moving_walls ? memory_alloc(nodes, sizeof(double)) : w->acceleration;
     w->velocity = memory_alloc(nodes, sizeof(double));
     w->part_kinetic = memory_alloc((size_t)m->part_count + 1, sizeof(double));
     w->part_momentum = memory_alloc(3 * (size_t)m->part_count + 3, sizeof(double));
-    w->lane_rate = memory_alloc((size_t)m->padded_count + 1, sizeof(double));
+    w->lane_rate = memory_alloc((size_t)BILLOW_CHUNK * BILLOW_LANES, sizeof(double));
     w->kept_history = memory_alloc((size_t)BILLOW_CHUNK * BILLOW_LANES * 4 * HISTORY_POINT_SIZE, sizeof(double));
     w->special_kind = memory_alloc(special + 1, 1);
     w->drag = memory_alloc(3 * special + 1, sizeof(double));
@@ -120,6 +120,7 @@ static int allocate(Workspace *w)
 
 static void release(Workspace *w)
 {
+    if (w->before == w->acceleration) w->before = NULL;
     void *blocks[] = {w->rows,          w->chunks,         w->node_sums,    w->bag_pressure,    w->load_pressure,
                       w->stagnation,    w->set_volume,     w->set_area,     w->source_pressure, w->class_gravity,
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,

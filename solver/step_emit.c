@@ -65,7 +65,7 @@ static int find_critical(Workspace *w)
             to = group->first_element + (int64_t)end * BILLOW_LANES;
     for (int e = 0; e < m->element_count; e++) {
         if (m->element_slot[e] < from || m->element_slot[e] >= to) continue;
-        double rate = w->lane_rate[m->element_slot[e]];
+        double rate = w->lane_rate[m->element_slot[e] - from];
         if (rate > largest) {
             largest = rate;
             critical = e;

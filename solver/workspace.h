@@ -83,12 +83,13 @@ typedef struct Workspace {
     double *force;  /* special nodes: pressure and stress forces (node_count x 3); all nodes when emitting */
     double *newton; /* velocities of the special nodes before supports act (moving - free count, x 3) */
     double *drag;   /* mass damping force of the special nodes (moving - free count, x 3) */
-    unsigned char *special_kind;     /* of the special nodes: 1 hanging, 2 rigid, 0 others (moving - free count) */
-    double *before;                  /* velocities of the special nodes at n - 1/2 (node_count x 3) */
+    unsigned char *special_kind; /* of the special nodes: 1 hanging, 2 rigid, 0 others (moving - free count) */
+    double *before; /* velocities of the special nodes at n - 1/2 (node_count x 3); shares acceleration's memory unless
+                     * walls with mass keep those of free nodes too */
     double *acceleration, *velocity; /* full-step view, (node_count x 3); NULL until the first emit */
     double *part_kinetic, *part_momentum;
-    double *lane_rate;    /* squared frequency of each padded element (padded_count), filled for the critical chunk */
-    double *kept_history; /* of one chunk */
+    double *lane_rate;                  /* squared frequency of each lane of the critical chunk */
+    double *kept_history;               /* of one chunk */
     int critical_chunk, critical_group; /* with the largest frequency of this cycle */
     GasPass *gas_pass;                  /* partial sums of the implicit gas (node chunks + 1) x (airbag_count) */
     WallPlan *walls;                    /* (wall_count) */
