@@ -71,6 +71,40 @@ static void number_rows(Model *m, const ElementGroup *group, int32_t *row, int s
     m->row_start[segment + 1] = m->row_count;
 }
 
+/* A segment and the mean number of its nodes. */
+typedef struct SegmentKey {
+    double place;
+    int32_t segment;
+} SegmentKey;
+
+static int compare_places(const void *left, const void *right)
+{
+    const SegmentKey *a = left, *b = right;
+    if (a->place != b->place) return a->place < b->place ? -1 : 1;
+    return a->segment - b->segment;
+}
+
+/* Segments in the order of their nodes, whatever their group: a thread then works on elements and nodes of one region.
+ */
+static int order_segments(Builder *b)
+{
+    Model *m = b->model;
+    SegmentKey *keys = memory_alloc((size_t)m->segment_count + 1, sizeof *keys);
+    m->segment_order = builder_alloc(b, (size_t)m->segment_count + 1, sizeof *m->segment_order);
+    int status = keys && m->segment_order ? 0 : -1;
+    for (int s = 0; !status && s < m->segment_count; s++) keys[s].segment = s;
+    for (int n = 0; !status && n < m->node_count; n++) {
+        for (int32_t k = m->node_row_start[n], s = 0; k < m->node_row_start[n + 1]; k++) {
+            while (m->row_start[s + 1] <= m->node_row[k]) s++;
+            keys[s].place += (double)n / (m->row_start[s + 1] - m->row_start[s]);
+        }
+    }
+    if (!status) qsort(keys, (size_t)m->segment_count, sizeof *keys, compare_places);
+    for (int s = 0; !status && s < m->segment_count; s++) m->segment_order[s] = keys[s].segment;
+    memory_free(keys);
+    return status;
+}
+
 static int fill_row_tables(Builder *b, SegmentNodes *nodes)
 {
     Model *m = b->model;
@@ -129,7 +163,7 @@ int build_rows(Builder *b)
                           .seen = memory_alloc(count, sizeof *nodes.seen),
                           .row = memory_alloc(count, sizeof *nodes.row)};
     int status = nodes.node && nodes.seen && nodes.row && !cut_segments(b) && !fill_row_tables(b, &nodes) &&
-                         !list_rows(b, &nodes)
+                         !list_rows(b, &nodes) && !order_segments(b)
                      ? 0
                      : -1;
     m->node_pressure = status ? NULL : builder_alloc(b, count, sizeof *m->node_pressure);

@@ -142,6 +142,7 @@ typedef struct Model {
     int segment_count, row_count;
     int32_t *segment_chunk;  /* first chunk of each segment (segment_count + 1) */
     int32_t *row_start;      /* first row of each segment (segment_count + 1) */
+    int32_t *segment_order;  /* segments by the place of their nodes, as threads share them out (segment_count) */
     int32_t *row_set;        /* pressure set of each row, -1: none (row_count) */
     int32_t *node_row_start; /* CSR: rows of node n are node_row[node_row_start[n] .. node_row_start[n + 1]) */
     int32_t *node_row;       /* in the order of the segments (row_count) */

@@ -53,18 +53,27 @@ static void run_chunk(Workspace *w, const ElementGroup *group, int chunk)
     kernels_for(w->kernels, group)(&input, &w->chunks[chunk]);
 }
 
-/* A thread has the segments that begin in its share of the chunks. */
+static const ElementGroup *group_of_chunk(const Model *m, int chunk)
+{
+    int g = 0;
+    while (g + 1 < m->group_count && m->groups[g + 1].first_chunk <= chunk) g++;
+    return &m->groups[g];
+}
+
+/* A thread has the segments whose middle is in its share of the chunks, counted in the order of the nodes. */
 void step_elements(Workspace *w, int thread, int threads)
 {
     const Model *m = w->model;
-    int g = 0;
-    for (int s = 0; s < m->segment_count; s++) {
-        int first = m->segment_chunk[s], end = m->segment_chunk[s + 1];
-        if ((int64_t)first * threads / m->chunk_count != thread) continue;
-        while (g + 1 < m->group_count && m->groups[g + 1].first_chunk <= first) g++;
+    int64_t before = 0;
+    for (int i = 0; i < m->segment_count; i++) {
+        int s = m->segment_order[i], first = m->segment_chunk[s], end = m->segment_chunk[s + 1];
+        int64_t owner = (2 * before + end - first) * threads / (2 * m->chunk_count);
+        before += end - first;
+        if (owner != thread) continue;
+        const ElementGroup *group = group_of_chunk(m, first);
         memset(w->rows + ROW_SIZE * (ptrdiff_t)m->row_start[s], 0,
                ROW_SIZE * (size_t)(m->row_start[s + 1] - m->row_start[s]) * sizeof *w->rows);
-        for (int c = first; c < end; c++) run_chunk(w, &m->groups[g], c);
+        for (int c = first; c < end; c++) run_chunk(w, group, c);
     }
 }
 
