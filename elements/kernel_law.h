@@ -173,10 +173,9 @@ ALWAYS_INLINE GreenResult green_stress(const FabricLaw *law, const Compliance *b
 
 /* What FORM 0 and 1 need of C: the stretch U = sqrt(C) and the way back to the second Piola-Kirchhoff stress. */
 typedef struct BiotState {
-    PackTensor stretch; /* U in material axes */
-    Pack jacobian;      /* J = det U */
-    Pack pull;          /* 1/(J tr U) */
-    Pack wide;          /* l1/l2 */
+    PackTensor stretch;       /* U in material axes */
+    Pack by_sum, by_jacobian; /* 1/tr U, 1/det U */
+    Pack wide;                /* l1/l2 */
 } BiotState;
 
 /* U = (C + J 1)/tr U with tr U = sqrt(tr C + 2 J) (eq. F1): no eigenvectors. */
@@ -185,14 +184,13 @@ ALWAYS_INLINE BiotState biot_state(PackTensor c)
     BiotState f;
     Pack half = 0.5 * (c.a11 - c.a22), trace = pack_larger(c.a11 + c.a22, pack_of(BILLOW_LEAST_SQUARED_STRETCH));
     Pack det = pack_larger(c.a11 * c.a22 - c.a12 * c.a12, BILLOW_LEAST_SQUARED_STRETCH * trace);
-    Pack by_jacobian = pack_reciprocal_root(det);
-    f.jacobian = det * by_jacobian;
-    Pack by_sum = 1.0 / pack_root(trace + 2.0 * f.jacobian); /* 1/tr U */
-    f.stretch.a11 = (c.a11 + f.jacobian) * by_sum;
-    f.stretch.a22 = (c.a22 + f.jacobian) * by_sum;
-    f.stretch.a12 = c.a12 * by_sum;
-    f.pull = by_jacobian * by_sum;
-    f.wide = (0.5 * trace + pack_root(half * half + c.a12 * c.a12)) * by_jacobian;
+    f.by_jacobian = pack_reciprocal_root(det);
+    Pack jacobian = det * f.by_jacobian;
+    f.by_sum = 1.0 / pack_root(trace + 2.0 * jacobian);
+    f.stretch.a11 = (c.a11 + jacobian) * f.by_sum;
+    f.stretch.a22 = (c.a22 + jacobian) * f.by_sum;
+    f.stretch.a12 = c.a12 * f.by_sum;
+    f.wide = (0.5 * trace + pack_root(half * half + c.a12 * c.a12)) * f.by_jacobian;
     return f;
 }
 
@@ -209,14 +207,14 @@ ALWAYS_INLINE PackTensor biot_stress(const FabricLaw *law, bool field, bool line
     return t;
 }
 
-/* The S of 1/2 (S U + U S) = T: S = (J T + adj U T adj U)/(J tr U) (eq. F5). */
+/* The S of 1/2 (S U + U S) = T: S = (2 T - tr S U - (tr T - tr S tr U) 1)/tr U, tr S = adj U : T / J (eq. F5). */
 ALWAYS_INLINE PackTensor pull_back_biot(PackTensor t, const BiotState *f)
 {
-    Pack a11 = f->stretch.a22, a22 = f->stretch.a11, a12 = -f->stretch.a12, j = f->jacobian;
-    Pack p11 = a11 * t.a11 + a12 * t.a12, p12 = a11 * t.a12 + a12 * t.a22, p21 = a12 * t.a11 + a22 * t.a12,
-         p22 = a12 * t.a12 + a22 * t.a22;
-    PackTensor s = {f->pull * (j * t.a11 + (p11 * a11 + p12 * a12)), f->pull * (j * t.a22 + (p21 * a12 + p22 * a22)),
-                    f->pull * (j * t.a12 + (p11 * a12 + p12 * a22))};
+    const PackTensor *u = &f->stretch;
+    Pack trace = ((u->a22 * t.a11 + u->a11 * t.a22) - (u->a12 + u->a12) * t.a12) * f->by_jacobian;
+    Pack twice = f->by_sum + f->by_sum, along = trace * f->by_sum, sphere = (t.a11 + t.a22) * f->by_sum - trace;
+    PackTensor s = {(twice * t.a11 - along * u->a11) - sphere, (twice * t.a22 - along * u->a22) - sphere,
+                    twice * t.a12 - along * u->a12};
     return s;
 }
 
