@@ -14,7 +14,47 @@
 /* A bag is flat below this share of A^1.5: one that started flatter than the guard is not popped by PPOP before. */
 #define BILLOW_GAS_FLAT 1e-3
 
-typedef enum GasKind { GAS_SIMPLE, GAS_WANG_NEFSKE } GasKind;
+typedef enum GasKind {
+    GAS_SIMPLE,
+    GAS_WANG_NEFSKE,
+    GAS_PRESSURE_VOLUME, /* the laws from here on have a pressure, but no temperature */
+    GAS_ADIABATIC,
+    GAS_LOAD_CURVE,
+    GAS_LINEAR_FLUID,
+    GAS_KIND_COUNT
+} GasKind;
+
+/* *AIRBAG_SIMPLE_PRESSURE_VOLUME: factor coefficient / relative volume, or a curve over the relative volume. */
+typedef struct PressureVolumeLaw {
+    double coefficient, factor; /* CN >= 0, BETA */
+    int coefficient_curve;      /* CN < 0: over time */
+    int relative_curve;         /* LCID: in place of both */
+} PressureVolumeLaw;
+
+/* *AIRBAG_ADIABATIC_GAS_MODEL; PE, P0 and R0 are the model's ambient_pressure, overpressure and density. */
+typedef struct AdiabaticLaw {
+    double factor, gamma; /* PSF, GAMMA */
+    int preload_curve;    /* LCID: P0 is held until its first value that is not zero */
+} AdiabaticLaw;
+
+/* *AIRBAG_LOAD_CURVE; PE, P0 and R0 as above. */
+typedef struct LoadCurveLaw {
+    double start_time;        /* STIME */
+    int pressure_curve;       /* LCID: pressure over time since start_time; -1: C rho (T - T0) */
+    double temperature, zero; /* T, T0 */
+} LoadCurveLaw;
+
+/* *AIRBAG_LINEAR_FLUID; RO is the model's density. */
+typedef struct LinearFluidLaw {
+    double bulk;                     /* BULK */
+    int bulk_curve;                  /* LCBULK: over time, in place of it */
+    int inflow_curve, outflow_curve; /* LCINT, LCOUTT: mass flow over time */
+    int outflow_pressure_curve;      /* LCOUTP: mass flow over pressure */
+    int added_pressure_curve;        /* LFIT: over time */
+    int pressure_curve;              /* LCID: pressure over time in place of all that */
+    double limit;                    /* P_LIMIT, 0: none */
+    int limit_curve;                 /* P_LIMLC: over time, in place of it */
+} LinearFluidLaw;
 
 /* Immutable description; curve members are indices into the model's curves, -1 for none. Units: the deck's.
  * Start from gas_model_reset. Where a constant and a curve are given for the same quantity, a positive constant counts;
@@ -47,6 +87,12 @@ typedef struct GasModel {
     double pop_pressure;                                               /* PPOP: gauge pressure that opens the exits */
     double heat_transfer;                                              /* HCONV >= 0 */
     int heat_transfer_curve;                                           /* HCONV < 0: over time */
+    /* Laws without a temperature */
+    double density; /* R0, RO of what fills the bag at the start */
+    PressureVolumeLaw pressure_volume;
+    AdiabaticLaw adiabatic;
+    LoadCurveLaw load_curve;
+    LinearFluidLaw fluid;
 } GasModel;
 
 /* State of one bag; lives in the State buffer, so plain data only. */
@@ -61,9 +107,10 @@ typedef struct GasState {
     double heat_out, work; /* cumulated; work = integral of p dV done by the gas */
     double cap_work;       /* part of work done on the caps (no rim force) */
     double applied;        /* PSCA (p - ambient): pressure on the walls */
-    double opened;         /* 1 once the pop pressure was reached or none is needed */
+    double opened;         /* 1 once the pop pressure was reached or none is needed; of GAS_ADIABATIC: preload over */
+    double initial_volume; /* of the gas */
     double initial_mass, initial_energy;
-    double stiffness;                       /* gamma p PSCA VSCA / V: d p / d V, for the stable step */
+    double stiffness;                       /* PSCA VSCA times -dp/dV of the gas, for the stable step */
     double reaction;                        /* jet force, abstat's column */
     double guard;                           /* smallest gas volume [L3] */
     double flat;                            /* 1 as long as a bag that started flat is flat */
@@ -71,7 +118,10 @@ typedef struct GasState {
     double carry[8];                        /* rounding errors of the ledger's sums (gas_ledger.h) */
 } GasState;
 
-/* Everything 0, all curves -1, gravity_conversion 1. */
+/* The keyword without *AIRBAG_. */
+const char *gas_name(GasKind kind);
+
+/* Everything 0, all curves -1, factors of pressure and volume 1. */
 void gas_model_reset(GasModel *gas);
 
 /* What the gas sees of the walls over one step. */

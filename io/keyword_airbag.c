@@ -1,7 +1,7 @@
 /* *AIRBAG_SIMPLE_AIRBAG_MODEL and *AIRBAG_WANG_NEFSKE. */
 #include <string.h>
 
-#include "io/keyword_table.h"
+#include "io/keyword_airbag.h"
 
 typedef struct BagIdCard {
     int id;
@@ -9,11 +9,12 @@ typedef struct BagIdCard {
 } BagIdCard;
 
 #define AT(member) offsetof(BagIdCard, member)
-static const FieldSpec id_fields[] = {CARD_INT("ABID", id, USED, ID_OTHER), CARD_TEXT("HEADING", heading, 70, USED)};
+const FieldSpec airbag_id_fields[AIRBAG_ID_FIELDS] = {CARD_INT("ABID", id, USED, ID_OTHER),
+                                                      CARD_TEXT("HEADING", heading, 70, USED)};
 #undef AT
 
 #define AT(member) offsetof(AirbagDefinition, member)
-static const FieldSpec core_fields[] = {
+const FieldSpec airbag_core_fields[AIRBAG_CORE_FIELDS] = {
     CARD_INT("SID", sid, USED, ID_SET),          CARD_INT("SIDTYP", sidtyp, USED, NONE),
     CARD_INT("RBID", rbid, REFUSED, NONE),       CARD_REAL_OR("VSCA", vsca, 1.0, USED, NONE),
     CARD_REAL_OR("PSCA", psca, 1.0, USED, NONE), CARD_REAL("VINI", vini, USED, VOLUME),
@@ -73,20 +74,16 @@ static const FieldSpec wang7_fields[] = {
 };
 #undef AT
 
-enum { BAG_ID };
-enum { BAG_ID_CARD, BAG_CORE_CARD };
-enum { SIMPLE_CARD3 = 2, SIMPLE_CARD4A, SIMPLE_CARD4B };
+enum { SIMPLE_CARD3 = AIRBAG_CARD_MODEL, SIMPLE_CARD4A, SIMPLE_CARD4B };
 static const CardSpec simple_cards[] = {
-    {"ID card", "with ID", CARD_FIELDS(id_fields)},
-    {"card 1", "", CARD_FIELDS(core_fields)},
+    AIRBAG_CARDS,
     {"card 3", "", CARD_FIELDS(simple3_fields)},
     {"card 4a", "if CV = 0", CARD_FIELDS(simple4a_fields)},
     {"card 4b", "if CV is not 0; may be left out", CARD_FIELDS(simple4b_fields)},
 };
-enum { WANG_CARD3 = 2, WANG_CARD4, WANG_CARD5, WANG_CARD6, WANG_CARD6_SPARE, WANG_CARD7 };
+enum { WANG_CARD3 = AIRBAG_CARD_MODEL, WANG_CARD4, WANG_CARD5, WANG_CARD6, WANG_CARD6_SPARE, WANG_CARD7 };
 static const CardSpec wang_cards[] = {
-    {"ID card", "with ID", CARD_FIELDS(id_fields)},
-    {"card 1", "", CARD_FIELDS(core_fields)},
+    AIRBAG_CARDS,
     {"card 3", "", CARD_FIELDS(wang3_fields)},
     {"card 4", "", CARD_FIELDS(wang4_fields)},
     {"card 5", "", CARD_FIELDS(wang5_fields)},
@@ -96,19 +93,19 @@ static const CardSpec wang_cards[] = {
 };
 
 /* ID card and card 1. A sensor's cards would follow card 1, so that what comes after it cannot be understood. */
-static int read_core(KeywordRead *read, AirbagDefinition *bag)
+int airbag_read_core(KeywordRead *read, AirbagDefinition *bag)
 {
     int status = 0;
     bag->source = read->cards->block->source;
-    if (keyword_option(read, BAG_ID)) {
+    if (keyword_option(read, AIRBAG_OPTION_ID)) {
         BagIdCard card = {0};
         Source source;
-        if (keyword_card(read, BAG_ID_CARD, &card, true, &source)) return -1;
+        if (keyword_card(read, AIRBAG_CARD_ID, &card, true, &source)) return -1;
         if (!keyword_check_id(read, card.id, "ABID", source)) status = -1;
         bag->id = card.id;
         memcpy(bag->heading, card.heading, sizeof card.heading);
     }
-    if (keyword_card(read, BAG_CORE_CARD, bag, true, &bag->card1)) return -1;
+    if (keyword_card(read, AIRBAG_CARD_CORE, bag, true, &bag->card1)) return -1;
     if (!keyword_check_id(read, bag->sid, "SID", bag->card1)) status = -1;
     return status;
 }
@@ -128,9 +125,8 @@ static void convert_heat(const KeywordRead *read, AirbagDefinition *bag)
     if (bag->hconv > 0.0) bag->hconv *= t->fctmas / (t->fcttim * t->fcttim * t->fcttim * t->fcttem);
 }
 
-static void store_bag(KeywordRead *read, AirbagDefinition *card)
+void airbag_store(KeywordRead *read, const AirbagDefinition *card)
 {
-    convert_heat(read, card);
     AirbagDefinition *bag = KEYWORD_APPEND(read, read->definitions->airbags);
     if (bag) *bag = *card;
 }
@@ -138,7 +134,7 @@ static void store_bag(KeywordRead *read, AirbagDefinition *card)
 static void read_simple(KeywordRead *read)
 {
     AirbagDefinition bag = {.model = AIRBAG_SIMPLE};
-    if (read_core(read, &bag)) return;
+    if (airbag_read_core(read, &bag)) return;
     if (keyword_card(read, SIMPLE_CARD3, &bag, true, &bag.card3)) return;
     if (bag.mu < 0.0 && !keyword_real_id(read, &bag.mu, SCALE_ID_FUNCTION, "MU", bag.card3)) return;
     if (bag.area < 0.0 && !keyword_real_id(read, &bag.area, SCALE_ID_FUNCTION, "AREA", bag.card3)) return;
@@ -149,7 +145,8 @@ static void read_simple(KeywordRead *read)
     if ((varying || more) && keyword_card(read, varying ? SIMPLE_CARD4A : SIMPLE_CARD4B, &bag, true, &bag.card4))
         return;
     keyword_finish(read);
-    store_bag(read, &bag);
+    convert_heat(read, &bag);
+    airbag_store(read, &bag);
 }
 
 /* What billow has no part for yet; one message for each. */
@@ -178,7 +175,7 @@ static int refuse_features(const KeywordRead *read, const AirbagDefinition *bag)
 static void read_wang_nefske(KeywordRead *read)
 {
     AirbagDefinition bag = {.model = AIRBAG_WANG_NEFSKE};
-    if (read_core(read, &bag)) return;
+    if (airbag_read_core(read, &bag)) return;
     if (keyword_card(read, WANG_CARD3, &bag, true, &bag.card3)) return;
     if (keyword_card(read, WANG_CARD4, &bag, true, &bag.card4)) return;
     if (keyword_card(read, WANG_CARD5, &bag, true, &bag.card5)) return;
@@ -193,7 +190,8 @@ static void read_wang_nefske(KeywordRead *read)
     if (bag.hconv < 0.0 && !keyword_real_id(read, &bag.hconv, SCALE_ID_FUNCTION, "HCONV", bag.card7)) return;
     if (bag.lcmt == 0)
         keyword_warning(read, bag.card3, "LCMT = 0 and no inflator on card 6: no gas flows into this bag");
-    store_bag(read, &bag);
+    convert_heat(read, &bag);
+    airbag_store(read, &bag);
 }
 
 static const KeywordSpec specs[] = {

@@ -119,8 +119,7 @@ static void write_gas(const Airbag *bag, const GasState *gas, FILE *stream)
 {
     const GasModel *model = &bag->gas;
     fprintf(stream, "    gas (%s): V %.8g, p %.6g, T %.6g, density %.6g, mass %.6g, energy %.6g\n",
-            model->kind == GAS_SIMPLE ? "SIMPLE_AIRBAG_MODEL" : "WANG_NEFSKE", gas->volume, gas->pressure,
-            gas->temperature, gas->density, gas->mass, gas->energy);
+            gas_name(model->kind), gas->volume, gas->pressure, gas->temperature, gas->density, gas->mass, gas->energy);
     if (model->temperature_dependent)
         fprintf(stream, "    heat capacity: molar cp = %.6g + %.6g T, molar mass %.6g\n", model->a, model->b,
                 model->molar_mass);

@@ -30,6 +30,7 @@ typedef struct ShellRecord {
     int source_count; /* pressures that act on it */
     int source[4];    /* pressure sources: airbags, then segment loads */
     int sign[4];      /* +1: the source is behind the stored winding (pushes along its normal) */
+    int push[4];      /* 0: the facet bounds the source's volume, but does not feel its pressure */
     int pressure_set; /* -1 none */
     int orientation;  /* of the area vector relative to the stored winding */
 } ShellRecord;

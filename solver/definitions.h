@@ -294,7 +294,14 @@ typedef struct DampingDefinition { /* *DAMPING_GLOBAL (part 0) and *DAMPING_PART
     Source source;
 } DampingDefinition;
 
-typedef enum AirbagModel { AIRBAG_SIMPLE, AIRBAG_WANG_NEFSKE } AirbagModel;
+typedef enum AirbagModel {
+    AIRBAG_SIMPLE,
+    AIRBAG_WANG_NEFSKE,
+    AIRBAG_PRESSURE_VOLUME,
+    AIRBAG_ADIABATIC,
+    AIRBAG_LOAD_CURVE,
+    AIRBAG_LINEAR_FLUID,
+} AirbagModel;
 
 /* *AIRBAG_<model>(_ID): cards as in the manual; the Source of every card so that messages name the right line. */
 typedef struct AirbagDefinition {
@@ -316,6 +323,14 @@ typedef struct AirbagDefinition {
     int lcefr, knkdn;
     double ioc, ioa, ivol, iro, it; /* WANG_NEFSKE 6 */
     int lcbf;
+    double cn, beta; /* SIMPLE_PRESSURE_VOLUME 3, with lcid */
+    int lciddr;
+    double psf, gamma, p0; /* ADIABATIC_GAS_MODEL 3, with lcid, pe, ro; LOAD_CURVE 3 has p0, pe, ro, t too */
+    double stime, t0;      /* LOAD_CURVE 3, with lcid */
+    double bulk;           /* LINEAR_FLUID 3, with ro, lcid */
+    int lcint, lcoutt, lcoutp, lcfit, lcbulk;
+    double p_limit; /* LINEAR_FLUID 4 */
+    int p_limlc, nonull;
     Source source, card1, card3, card4, card5, card6, card7;
 } AirbagDefinition;
 

@@ -58,6 +58,7 @@ typedef struct PressureSet {
     int count;
     int source[4]; /* index into pressure sources: airbags first, then segment loads */
     int sign[4];   /* +1: the source is on the inner side of the stored orientation */
+    int push[4];   /* sign, or 0: the surface bounds the source's volume, but does not feel its pressure */
 } PressureSet;
 
 typedef struct Part {

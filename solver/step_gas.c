@@ -67,11 +67,11 @@ static void set_pressures(Workspace *w)
         for (int k = 0; k < set->count; k++) {
             int source = set->source[k];
             if (source >= m->airbag_count) {
-                w->load_pressure[s] += set->sign[k] * w->source_pressure[source];
+                w->load_pressure[s] += set->push[k] * w->source_pressure[source];
                 continue;
             }
-            w->bag_pressure[s] += set->sign[k] * w->source_pressure[source];
-            w->stagnation[s] += m->airbags[source].spsf * m->airbags[source].gas.ambient_density;
+            w->bag_pressure[s] += set->push[k] * w->source_pressure[source];
+            if (set->push[k] != 0) w->stagnation[s] += m->airbags[source].spsf * m->airbags[source].gas.ambient_density;
         }
     }
 }
