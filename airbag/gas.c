@@ -8,6 +8,7 @@
 
 static const ChamberModel *const models[GAS_KIND_COUNT] = {
     [GAS_SIMPLE] = &chamber_ideal_gas_simple,         [GAS_WANG_NEFSKE] = &chamber_ideal_gas_wang_nefske,
+    [GAS_HYBRID] = &chamber_ideal_gas_hybrid,         [GAS_CHEMKIN] = &chamber_ideal_gas_chemkin,
     [GAS_PRESSURE_VOLUME] = &chamber_pressure_volume, [GAS_ADIABATIC] = &chamber_adiabatic,
     [GAS_LOAD_CURVE] = &chamber_load_curve,           [GAS_LINEAR_FLUID] = &chamber_linear_fluid,
 };

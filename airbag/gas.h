@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "airbag/species.h"
 #include "solver/curve.h"
 
 /* Smallest volume of the gas as a share of A^1.5 (A the surface area at the start): a flat bag has no volume, and the
@@ -17,12 +18,24 @@
 typedef enum GasKind {
     GAS_SIMPLE,
     GAS_WANG_NEFSKE,
+    GAS_HYBRID, /* mixtures */
+    GAS_CHEMKIN,
     GAS_PRESSURE_VOLUME, /* the laws from here on have a pressure, but no temperature */
     GAS_ADIABATIC,
     GAS_LOAD_CURVE,
     GAS_LINEAR_FLUID,
     GAS_KIND_COUNT
 } GasKind;
+
+/* How one gas of a mixture comes into the bag; curves over time. */
+typedef struct GasSource {
+    double initial_fraction; /* by mass, at the start; all sum to 1 */
+    int mass_flow_curve;     /* LCIDM: its mass flow, unless the mixture has a total one */
+    int temperature_curve;   /* LCIDT */
+    double mole_fraction;    /* FMOLE: of the total inflow */
+    int mole_fraction_curve; /* LCIDN, or LCIDM with LCIDM0: in place of it */
+    double aspirated;        /* FMASS: mass of ambient gas that each mass of this one draws in */
+} GasSource;
 
 /* *AIRBAG_SIMPLE_PRESSURE_VOLUME: factor coefficient / relative volume, or a curve over the relative volume. */
 typedef struct PressureVolumeLaw {
@@ -65,6 +78,10 @@ typedef struct GasModel {
     bool temperature_dependent;
     double cv, cp;
     double a, b, molar_mass, gas_constant;
+    int species_count; /* of a mixture; 0: one gas by the capacities above */
+    const GasSpecies *species;
+    const GasSource *sources;
+    bool total_inflow;          /* mass_flow_curve is the whole mixture's, shared out by mole fractions */
     double inflow_temperature;  /* T */
     int temperature_curve;      /* LCT, overrides inflow_temperature */
     int temperature_rate_curve; /* LCDT: dT/dt of the inflow over time, added to inflow_temperature; not with LCT */
@@ -109,6 +126,7 @@ typedef struct GasState {
     double applied;        /* PSCA (p - ambient): pressure on the walls */
     double opened;         /* 1 once the pop pressure was reached or none is needed; of GAS_ADIABATIC: preload over */
     double initial_volume; /* of the gas */
+    double species[BILLOW_GAS_SPECIES]; /* masses of a mixture's gases [M] */
     double initial_mass, initial_energy;
     double stiffness;                       /* PSCA VSCA times -dp/dV of the gas, for the stable step */
     double reaction;                        /* jet force, abstat's column */

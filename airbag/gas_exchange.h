@@ -10,8 +10,8 @@ void gas_check_pop(const GasModel *gas, GasState *state);
 /* In- and outflow and heat loss from time to time + span at volume state->volume and surface area; updates mass,
  * energy, temperature, pressure and the sums of the ledger, mass_flow_out_vent and mass_flow_out_porosity by the masses
  * that left. Mass and temperature stay positive, and a vented bag relaxes monotonically to the ambient pressure, for
- * any span. */
-void gas_exchange(const GasModel *gas, const GasLaw *law, const Curve *curves, double time, double span, double area,
+ * any span. The law of a mixture follows the composition. */
+void gas_exchange(const GasModel *gas, GasLaw *law, const Curve *curves, double time, double span, double area,
                   GasState *state);
 
 #endif

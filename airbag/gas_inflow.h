@@ -5,7 +5,8 @@
 #include "airbag/gas_law.h"
 
 typedef struct GasInflow {
-    double mass, enthalpy; /* [M], [energy] */
+    double mass, enthalpy;              /* [M], [energy] */
+    double species[BILLOW_GAS_SPECIES]; /* masses of a mixture's gases */
 } GasInflow;
 
 /* Gas of the tank test, tracked only with temperature-dependent heat capacities. */
@@ -27,6 +28,9 @@ GasInflow gas_inflow(const GasModel *gas, const GasLaw *law, const Curve *curves
 /* The part of it that comes from a tank pressure curve, between two corners of all curves over time (gas_tank.c). */
 GasInflow gas_tank_inflow(const GasModel *gas, const GasLaw *law, const Curve *curves, double begin, double end,
                           GasTank *tank);
+
+/* A mixture's inflow between two corners of all its curves (gas_inflow_mixture.c). */
+GasInflow gas_mixture_inflow(const GasModel *gas, const Curve *curves, double begin, double end);
 
 /* The first corner after time of the curves that feed the inflow, or +infinity. */
 double gas_inflow_next_corner(const GasModel *gas, const Curve *curves, double time);

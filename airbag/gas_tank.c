@@ -24,11 +24,12 @@ static GasInflow inflow_constant(const GasModel *gas, const GasLaw *law, const C
     for (int i = 0; i < 3; i++) {
         double time = begin + 0.5 * (end - begin) * (1.0 + place[i]);
         double temperature = gas_inflow_temperature(gas, curves, time);
-        if (!(temperature > 0.0)) return (GasInflow){0.0, 0.0};
+        if (!(temperature > 0.0)) return (GasInflow){0};
         inverse += weight[i] / temperature;
     }
     double share = law->c0 / (law->c0 + law->r); /* 1/gamma */
-    return (GasInflow){gas->tank_volume * rise * share / law->r * inverse, gas->tank_volume * rise * law->c0 / law->r};
+    return (GasInflow){.mass = gas->tank_volume * rise * share / law->r * inverse,
+                       .enthalpy = gas->tank_volume * rise * law->c0 / law->r};
 }
 
 /* (G11): d ln T / d ln p of the tank's gas while it is filled. */
@@ -76,20 +77,20 @@ GasInflow gas_tank_inflow(const GasModel *gas, const GasLaw *law, const Curve *c
     const Curve *curve = &curves[gas->tank_pressure_curve];
     double rise = curve_value(curve, end) - curve_value(curve, begin);
     if (law->c1 == 0.0) {
-        if (rise <= 0.0) return (GasInflow){0.0, 0.0};
+        if (rise <= 0.0) return (GasInflow){0};
         return inflow_constant(gas, law, curves, begin, end, rise);
     }
     GasTank before = *tank;
     tank->pressure = fmax(before.pressure + rise, 0.0);
     if (rise <= 0.0) { /* the tank cools: its mass stays */
         if (before.pressure > 0.0) tank->temperature = before.temperature * (tank->pressure / before.pressure);
-        return (GasInflow){0.0, 0.0};
+        return (GasInflow){0};
     }
     tank->temperature = fill_tank(gas, law, curves, begin, end, rise, &before);
     double density_before = before.pressure > 0.0 ? before.pressure / before.temperature : 0.0; /* times R */
     double density = tank->pressure / tank->temperature;
     double energy_before = density_before * gas_internal_energy(law, before.temperature);
     double energy = density * gas_internal_energy(law, tank->temperature);
-    return (GasInflow){gas->tank_volume * (density - density_before) / law->r,
-                       gas->tank_volume * (energy - energy_before) / law->r}; /* (G12) */
+    return (GasInflow){.mass = gas->tank_volume * (density - density_before) / law->r,
+                       .enthalpy = gas->tank_volume * (energy - energy_before) / law->r}; /* (G12) */
 }

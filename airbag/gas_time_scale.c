@@ -56,11 +56,11 @@ static double exit_scale(const GasModel *gas, const GasLaw *law, const Curve *cu
 
 double ideal_gas_time_scale(const GasModel *gas, const Curve *curves, const GasState *state, double time)
 {
-    GasLaw law = gas_law_of(gas);
+    GasLaw law = gas_law_of(gas, state);
     double scale = exit_scale(gas, &law, curves, state, time);
     double coefficient = gas_heat_coefficient(gas, curves, time);
     if (coefficient > 0.0 && state->mass > 0.0 && state->area > 0.0) {
-        double cv = law.c0 + law.c1 * state->temperature;
+        double cv = gas_cv(&law, state->temperature);
         scale = fmin(scale, HEAT_SHARE * state->mass * cv / (coefficient * state->area));
     }
     double margin = 1e-9 * fabs(time); /* the inflow is integrated exactly over a corner that is passed */

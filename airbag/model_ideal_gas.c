@@ -1,4 +1,4 @@
-/* Ideal gas with flows: SIMPLE_AIRBAG_MODEL and WANG_NEFSKE. */
+/* Ideal gas with flows: SIMPLE_AIRBAG_MODEL and WANG_NEFSKE, one gas; HYBRID and HYBRID_CHEMKIN, a mixture. */
 #include "airbag/chamber.h"
 #include "airbag/gas_exchange.h"
 #include "airbag/gas_heat.h"
@@ -20,6 +20,7 @@ static void update_applied(const GasModel *gas, const GasLaw *law, GasState *sta
 /* Names the field that makes the gas impossible, or NULL. */
 static const char *find_fault(const GasModel *gas)
 {
+    if (gas->species_count > 0) return gas->ambient_temperature > 0.0 ? NULL : "ATMOST must be positive";
     if (gas->temperature_dependent) {
         if (!(gas->molar_mass > 0.0)) return "MW must be positive where CV = 0";
         if (!(gas->gas_constant > 0.0)) return "GASC must be positive where CV = 0";
@@ -44,16 +45,17 @@ static const char *start(const GasModel *gas, const Curve *curves, GasState *sta
 {
     const char *fault = find_fault(gas);
     if (fault) return fault;
-    GasLaw law = gas_law_of(gas);
+    GasLaw law = gas_law_of(gas, state);
     double pressure = gas->ambient_pressure + gas->overpressure;
     double temperature = gas->initial_temperature;
     if (!(temperature > 0.0) && pressure > 0.0) temperature = gas->ambient_pressure / (gas->ambient_density * law.r);
     if (!(temperature > 0.0)) temperature = gas_inflow_temperature(gas, curves, 0.0);
-    if (!(law.c0 + law.c1 * temperature > 0.0))
-        return "A and B give a heat capacity that is not positive at the temperature of the start";
+    if (!(gas_cv(&law, temperature) > 0.0))
+        return "A, B (and C) give a heat capacity that is not positive at the temperature of the start";
     state->temperature = temperature; /* (G7) */
     state->mass = pressure > 0.0 ? pressure * state->volume / (law.r * temperature) : 0.0;
     state->energy = state->mass * gas_internal_energy(&law, temperature);
+    for (int i = 0; i < law.count; i++) state->species[i] = state->mass * law.fraction[i];
     state->initial_mass = state->mass;
     state->initial_energy = state->energy;
     state->density = state->mass / state->volume;
@@ -102,8 +104,8 @@ static void compress_gas(const GasLaw *law, double volume, GasState *state)
 
 /* Half of the exchange, compression, the other half, for each sub-step (Strang's splitting, G21). The exchange comes
  * last, so that a stiffly vented bag ends the step relaxed. */
-static void advance_substeps(const GasModel *gas, const GasLaw *law, const Curve *curves, const GasStep *step,
-                             double volume, GasState *state)
+static void advance_substeps(const GasModel *gas, GasLaw *law, const Curve *curves, const GasStep *step, double volume,
+                             GasState *state)
 {
     int count = count_substeps(gas, law, curves, step, volume, state);
     double start = state->volume, area = state->area;
@@ -124,15 +126,14 @@ static const char *find_failure(const GasLaw *law, const GasState *state)
 {
     if (!isfinite(state->mass) || state->mass < 0.0) return "the mass of the gas is not finite";
     if (!isfinite(state->temperature) || state->temperature < 0.0) return "the temperature of the gas is not finite";
-    if (!(law->c0 + law->c1 * state->temperature > 0.0))
-        return "the heat capacity of the gas is not positive: see A and B";
+    if (!(gas_cv(law, state->temperature) > 0.0)) return "the heat capacity of the gas is not positive: see A, B and C";
     return NULL;
 }
 
 static const char *advance(const GasModel *gas, const Curve *curves, const GasStep *step, double volume,
                            GasState *state)
 {
-    GasLaw law = gas_law_of(gas);
+    GasLaw law = gas_law_of(gas, state);
     advance_substeps(gas, &law, curves, step, volume, state);
     const char *failure = find_failure(&law, state);
     if (failure) return failure;
@@ -144,3 +145,5 @@ static const char *advance(const GasModel *gas, const Curve *curves, const GasSt
 
 const ChamberModel chamber_ideal_gas_simple = {"SIMPLE_AIRBAG_MODEL", start, advance, ideal_gas_time_scale};
 const ChamberModel chamber_ideal_gas_wang_nefske = {"WANG_NEFSKE", start, advance, ideal_gas_time_scale};
+const ChamberModel chamber_ideal_gas_hybrid = {"HYBRID", start, advance, ideal_gas_time_scale};
+const ChamberModel chamber_ideal_gas_chemkin = {"HYBRID_CHEMKIN", start, advance, ideal_gas_time_scale};

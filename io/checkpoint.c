@@ -92,6 +92,20 @@ static uint64_t hash_bags(uint64_t hash, const Model *model)
         hash = hash_int(hash, bag->id);
         hash = hash_int(hash, gas->kind);
         hash = hash_bytes(hash, constants, sizeof constants);
+        for (int k = 0; k < gas->species_count; k++) {
+            hash = hash_double(hash, gas->species[k].molar_mass);
+            hash = hash_bytes(hash, gas->species[k].piece[0].cp, sizeof gas->species[k].piece[0].cp);
+            hash = hash_double(hash, gas->sources[k].initial_fraction);
+        }
+        const double laws[] = {gas->pressure_volume.coefficient,
+                               gas->pressure_volume.factor,
+                               gas->adiabatic.gamma,
+                               gas->adiabatic.factor,
+                               gas->load_curve.start_time,
+                               gas->fluid.bulk,
+                               gas->overpressure,
+                               gas->density};
+        hash = hash_bytes(hash, laws, sizeof laws);
         hash = hash_int(hash, bag->node_count);
         hash = hash_int(hash, bag->closure.cap_count);
     }

@@ -149,8 +149,7 @@ static void read_simple(KeywordRead *read)
     airbag_store(read, &bag);
 }
 
-/* What billow has no part for yet; one message for each. */
-static int refuse_features(const KeywordRead *read, const AirbagDefinition *bag)
+int airbag_check_vents(const KeywordRead *read, AirbagDefinition *bag)
 {
     int status = 0;
     if (bag->a23 < 0.0) {
@@ -164,11 +163,7 @@ static int refuse_features(const KeywordRead *read, const AirbagDefinition *bag)
         keyword_error(read, bag->card5, "OPT is %g, but must be 0 to 8", bag->opt);
         status = -1;
     }
-    if (bag->lcmt < 0 || (bag->lcmt == 0 && bag->tvol != 0.0)) {
-        keyword_error(read, bag->card3, "LCMT is %d, but must name the curve of mass flow or of tank pressure",
-                      bag->lcmt);
-        status = -1;
-    }
+    bag->a23 = keyword_scale(read, bag->a23, SCALE_AREA);
     return status;
 }
 
@@ -185,8 +180,12 @@ static void read_wang_nefske(KeywordRead *read)
     bag.card7 = bag.card6;
     if (bag.cv == 0.0 && keyword_card(read, WANG_CARD7, &bag, true, &bag.card7)) return;
     keyword_finish(read);
-    if (refuse_features(read, &bag)) return;
-    bag.a23 = keyword_scale(read, bag.a23, SCALE_AREA);
+    if (airbag_check_vents(read, &bag)) return;
+    if (bag.lcmt < 0 || (bag.lcmt == 0 && bag.tvol != 0.0)) {
+        keyword_error(read, bag.card3, "LCMT is %d, but must name the curve of mass flow or of tank pressure",
+                      bag.lcmt);
+        return;
+    }
     if (bag.hconv < 0.0 && !keyword_real_id(read, &bag.hconv, SCALE_ID_FUNCTION, "HCONV", bag.card7)) return;
     if (bag.lcmt == 0)
         keyword_warning(read, bag.card3, "LCMT = 0 and no inflator on card 6: no gas flows into this bag");

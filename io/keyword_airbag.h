@@ -18,6 +18,9 @@ extern const FieldSpec airbag_id_fields[AIRBAG_ID_FIELDS], airbag_core_fields[AI
 /* Reads both. 0, or -1 after reporting. */
 int airbag_read_core(KeywordRead *read, AirbagDefinition *bag);
 
+/* Checks A23 and OPT and converts A23. 0, or -1 after reporting. */
+int airbag_check_vents(const KeywordRead *read, AirbagDefinition *bag);
+
 /* Appends the record to the definitions. */
 void airbag_store(KeywordRead *read, const AirbagDefinition *card);
 

@@ -12,6 +12,15 @@ int airbag_curve(Builder *b, int id, const char *field, Source source, int *stat
     return index;
 }
 
+int airbag_spline(Builder *b, int id, const char *field, Source source, int *status)
+{
+    int index = airbag_curve(b, id, field, source, status);
+    if (index < 0 || id > 0) return index;
+    index = build_spline(b, index);
+    if (index < 0) *status = -1;
+    return index;
+}
+
 int airbag_error(Builder *b, Source source, const char *text)
 {
     diagnostics_add(b->diagnostics, SEVERITY_ERROR, source, "*AIRBAG", "%s", text);
@@ -65,20 +74,9 @@ int airbag_simple(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     return status;
 }
 
-int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+int airbag_vents(Builder *b, const AirbagDefinition *bag, GasModel *gas)
 {
-    int status = common_fields(b, bag, gas);
-    gas->kind = GAS_WANG_NEFSKE;
-    gas->temperature_curve = airbag_curve(b, bag->lct, "LCT", bag->card3, &status);
-    gas->temperature_rate_curve = airbag_curve(b, bag->lcdt, "LCDT", bag->card3, &status);
-    int flow = airbag_curve(b, bag->lcmt, "LCMT", bag->card3, &status);
-    if (bag->tvol > 0.0)
-        gas->tank_pressure_curve = flow;
-    else
-        gas->mass_flow_curve = flow;
-    gas->tank_volume = bag->tvol;
-    if (bag->iabt > 0.0) gas->initial_temperature = bag->iabt;
-    gas->gravity_conversion = bag->gc != 0.0 ? bag->gc : 1.0;
+    int status = 0;
     gas->vent_coefficient = bag->c23;
     gas->vent_area = bag->a23;
     if (bag->c23 == 0.0 && bag->lcc23 < 0)
@@ -94,6 +92,24 @@ int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, GasModel *gas)
         if (bag->ap23 == 0.0)
             gas->porosity_area_pressure_curve = airbag_curve(b, bag->lcap23, "LCAP23", bag->card4, &status);
     }
+    return status;
+}
+
+int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+{
+    int status = common_fields(b, bag, gas);
+    gas->kind = GAS_WANG_NEFSKE;
+    gas->temperature_curve = airbag_curve(b, bag->lct, "LCT", bag->card3, &status);
+    gas->temperature_rate_curve = airbag_curve(b, bag->lcdt, "LCDT", bag->card3, &status);
+    int flow = airbag_curve(b, bag->lcmt, "LCMT", bag->card3, &status);
+    if (bag->tvol > 0.0)
+        gas->tank_pressure_curve = flow;
+    else
+        gas->mass_flow_curve = flow;
+    gas->tank_volume = bag->tvol;
+    if (bag->iabt > 0.0) gas->initial_temperature = bag->iabt;
+    gas->gravity_conversion = bag->gc != 0.0 ? bag->gc : 1.0;
+    if (airbag_vents(b, bag, gas)) status = -1;
     gas->exit_flow_curve = airbag_curve(b, bag->lcefr, "LCEFR", bag->card5, &status);
     gas->overpressure = bag->pover;
     gas->pop_pressure = bag->ppop;
@@ -107,6 +123,8 @@ int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, GasModel *gas)
 static int (*const build_model[])(Builder *, const AirbagDefinition *, GasModel *) = {
     [AIRBAG_SIMPLE] = airbag_simple,
     [AIRBAG_WANG_NEFSKE] = airbag_wang_nefske,
+    [AIRBAG_HYBRID] = airbag_hybrid,
+    [AIRBAG_CHEMKIN] = airbag_chemkin,
     [AIRBAG_PRESSURE_VOLUME] = airbag_pressure_volume,
     [AIRBAG_ADIABATIC] = airbag_adiabatic,
     [AIRBAG_LOAD_CURVE] = airbag_load_curve,

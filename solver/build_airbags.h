@@ -7,12 +7,20 @@
 /* Curve id of a card's field, of either sign -> index; 0 -> -1. An unknown one is reported and sets *status to -1. */
 int airbag_curve(Builder *b, int id, const char *field, Source source, int *status);
 
+/* The same, but a negative id asks for the cubic spline through the curve's points. */
+int airbag_spline(Builder *b, int id, const char *field, Source source, int *status);
+
 /* Reports an error at a card; -1. */
 int airbag_error(Builder *b, Source source, const char *text);
+
+/* Vents and leakage of the card that has C23 first (WANG_NEFSKE card 4, HYBRID card 4). 0, or -1 after reporting. */
+int airbag_vents(Builder *b, const AirbagDefinition *bag, GasModel *gas);
 
 /* Fill the gas, which is reset, from the cards. 0, or -1 after reporting. */
 int airbag_simple(Builder *b, const AirbagDefinition *bag, GasModel *gas);
 int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, GasModel *gas);
+int airbag_hybrid(Builder *b, const AirbagDefinition *bag, GasModel *gas);
+int airbag_chemkin(Builder *b, const AirbagDefinition *bag, GasModel *gas);
 int airbag_pressure_volume(Builder *b, const AirbagDefinition *bag, GasModel *gas);
 int airbag_adiabatic(Builder *b, const AirbagDefinition *bag, GasModel *gas);
 int airbag_load_curve(Builder *b, const AirbagDefinition *bag, GasModel *gas);

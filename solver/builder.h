@@ -60,13 +60,14 @@ int builder_adopt(Builder *builder, void *block);
 int build_parts(Builder *builder);  /* materials, sections -> laws */
 int build_shells(Builder *builder); /* shells -> records, masses */
 int build_curves(Builder *builder);
-int build_surfaces(Builder *builder);      /* airbags' surfaces: orientation and caps */
-int build_pressure_sets(Builder *builder); /* and segment loads -> pressure sets; after build_motion */
-int build_airbags(Builder *builder);       /* gas models; after build_surfaces */
-int build_output(Builder *builder);        /* termination, step control, output plan */
-int build_mass_scaling(Builder *builder);  /* DT2MS */
-int build_renumber(Builder *builder);      /* node and element order for locality */
-int build_groups(Builder *builder);        /* blocks, kernel constants */
+int build_spline(Builder *builder, int curve); /* index of a curve's points as a cubic spline; -1 without memory */
+int build_surfaces(Builder *builder);          /* airbags' surfaces: orientation and caps */
+int build_pressure_sets(Builder *builder);     /* and segment loads -> pressure sets; after build_motion */
+int build_airbags(Builder *builder);           /* gas models; after build_surfaces */
+int build_output(Builder *builder);            /* termination, step control, output plan */
+int build_mass_scaling(Builder *builder);      /* DT2MS */
+int build_renumber(Builder *builder);          /* node and element order for locality */
+int build_groups(Builder *builder);            /* blocks, kernel constants */
 int build_rows(Builder *builder);          /* segments and rows of corner sums */
 
 #endif

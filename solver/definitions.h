@@ -294,14 +294,30 @@ typedef struct DampingDefinition { /* *DAMPING_GLOBAL (part 0) and *DAMPING_PART
     Source source;
 } DampingDefinition;
 
+enum { BILLOW_AIRBAG_GASES = 17 }; /* of one mixture, as in the manual */
+
 typedef enum AirbagModel {
     AIRBAG_SIMPLE,
     AIRBAG_WANG_NEFSKE,
+    AIRBAG_HYBRID,
+    AIRBAG_CHEMKIN,
     AIRBAG_PRESSURE_VOLUME,
     AIRBAG_ADIABATIC,
     AIRBAG_LOAD_CURVE,
     AIRBAG_LINEAR_FLUID,
 } AirbagModel;
+
+/* One gas of *AIRBAG_HYBRID (cards 5.1, 5.2) or *AIRBAG_HYBRID_CHEMKIN (cards 6, 7). */
+typedef struct AirbagGasDefinition {
+    int lcidm, lcidt; /* HYBRID */
+    double mw, initm, a, b, c, fmass;
+    char chname[11]; /* CHEMKIN */
+    int lcidn;
+    double fmole, fmolet;
+    double tlow, tmid, thigh, low[7], high[7]; /* DATA = 1: a b c d e f h */
+    double d, e;                               /* DATA = 3, with a b c */
+    Source source;                             /* of the first card */
+} AirbagGasDefinition;
 
 /* *AIRBAG_<model>(_ID): cards as in the manual; the Source of every card so that messages name the right line. */
 typedef struct AirbagDefinition {
@@ -323,7 +339,11 @@ typedef struct AirbagDefinition {
     int lcefr, knkdn;
     double ioc, ioa, ivol, iro, it; /* WANG_NEFSKE 6 */
     int lcbf;
-    double cn, beta; /* SIMPLE_PRESSURE_VOLUME 3, with lcid */
+    double atmost, atmosp, atmosd, cc; /* HYBRID 3, with gc, hconv; CHEMKIN 3 has atmost, atmosp and gc as RG */
+    int ngas;                          /* HYBRID 5, with opt, lcefr, ppop as PVENT; CHEMKIN 3 */
+    int lcidm0, vntopt, lcidm, lcidt, data;
+    AirbagGasDefinition gases[BILLOW_AIRBAG_GASES]; /* (ngas) */
+    double cn, beta;                                /* SIMPLE_PRESSURE_VOLUME 3, with lcid */
     int lciddr;
     double psf, gamma, p0; /* ADIABATIC_GAS_MODEL 3, with lcid, pe, ro; LOAD_CURVE 3 has p0, pe, ro, t too */
     double stime, t0;      /* LOAD_CURVE 3, with lcid */

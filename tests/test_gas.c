@@ -209,11 +209,11 @@ static void test_orifice_table(void **unused)
     static const double argon[][2] = {
         {1.0, 0.0},       {1.001, 18.1352318}, {1.01, 57.3742163},       {1.1, 182.180708},
         {1.5, 412.61506}, {2.0, 588.736515},   {2.05282082, 604.487345}, {4.0, 1177.86675}};
-    GasLaw law = {2.5 * CASE_R, 0.0, CASE_R};
+    GasLaw law = {.c0 = 2.5 * CASE_R, .r = CASE_R};
     for (int i = 0; i < 12; i++)
         assert_relative(gas_orifice_flux(&law, 1.0, 101325.0, 101325.0 * air[i][0], 300.0), air[i][1], 3e-9);
     double r = 8.314462618 / 0.039948;
-    GasLaw noble = {r / 0.6667, 0.0, r};
+    GasLaw noble = {.c0 = r / 0.6667, .r = r};
     for (int i = 0; i < 8; i++)
         assert_relative(gas_orifice_flux(&noble, 1.0, 101325.0, 101325.0 * argon[i][0], 300.0), argon[i][1], 3e-9);
     for (int i = 1; i < 400; i++) { /* against the formula as the keyword manual writes it, and no flow inwards */

@@ -102,7 +102,7 @@ static void test_unknown_keywords(void **state)
                      "*ELEMENT_SHELL_OFFSET", "the option OFFSET of *ELEMENT_SHELL is not read");
     assert_one_error("*AIRBAG_WANG_NEFSKE_JETTING_ID\n         1\n", 1, "*AIRBAG_WANG_NEFSKE_JETTING_ID",
                      "the option JETTING_ID of *AIRBAG_WANG_NEFSKE is not read");
-    assert_one_error("*AIRBAG_HYBRID\n         1\n", 1, "*AIRBAG_HYBRID", "is not read by billow");
+    assert_one_error("*AIRBAG_PARTICLE\n         1\n", 1, "*AIRBAG_PARTICLE", "is not read by billow");
 }
 
 static void test_refused_features(void **state)
