@@ -16,7 +16,14 @@ typedef struct ChamberModel {
                            GasState *state);
     /* A step that resolves the model itself from a time on; see gas_time_scale. */
     double (*time_scale)(const GasModel *gas, const Curve *curves, const GasState *state, double time);
+    /* Pressure, applied and stiffness from the other quantities of the state at a time. NULL: connections are refused.
+     */
+    void (*refresh)(const GasModel *gas, const Curve *curves, double time, GasState *state);
+    /* Models without a temperature: the pressure if the mass were another one. NULL for the others. */
+    double (*pressure)(const GasModel *gas, const Curve *curves, double time, const GasState *state, double mass);
 } ChamberModel;
+
+double chamber_pressure(const GasModel *gas, const Curve *curves, double time, const GasState *state, double mass);
 
 extern const ChamberModel chamber_ideal_gas_simple, chamber_ideal_gas_wang_nefske, chamber_ideal_gas_hybrid,
     chamber_ideal_gas_chemkin, chamber_pressure_volume, chamber_adiabatic, chamber_load_curve, chamber_linear_fluid;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "airbag/chamber.h"
+#include "airbag/connection.h"
 
 static const ChamberModel *const models[GAS_KIND_COUNT] = {
     [GAS_SIMPLE] = &chamber_ideal_gas_simple,         [GAS_WANG_NEFSKE] = &chamber_ideal_gas_wang_nefske,
@@ -103,13 +104,31 @@ int gas_advance(const GasModel *gas, const Curve *curves, double vsca, double ps
     if (*why) return -1;
     if (next.volume > next.guard * (BILLOW_GAS_FLAT / BILLOW_GAS_GUARD)) next.flat = 0.0;
     double rate = step->dt > 0.0 ? 1.0 / step->dt : 0.0; /* masses of the step to mean flows */
-    next.mass_flow_in = (next.mass_in - state->mass_in) * rate;
-    next.mass_flow_out = (next.mass_out - state->mass_out) * rate;
+    next.mass_flow_in = (next.mass_in - state->counted_in) * rate;
+    next.mass_flow_out = (next.mass_out - state->counted_out) * rate;
+    next.counted_in = next.mass_in;
+    next.counted_out = next.mass_out;
     next.mass_flow_out_vent *= rate;
     next.mass_flow_out_porosity *= rate;
     scale_applied(vsca, psca, &next);
     *state = next;
     return 0;
+}
+
+void gas_refresh(GasSide *side, const Curve *curves, double time)
+{
+    models[side->gas->kind]->refresh(side->gas, curves, time, side->state);
+    scale_applied(side->vsca, side->psca, side->state);
+}
+
+bool gas_connects(GasKind kind)
+{
+    return models[kind]->refresh != NULL;
+}
+
+double chamber_pressure(const GasModel *gas, const Curve *curves, double time, const GasState *state, double mass)
+{
+    return models[gas->kind]->pressure(gas, curves, time, state, mass);
 }
 
 double gas_time_scale(const GasModel *gas, const Curve *curves, const GasState *state, double time)

@@ -120,10 +120,11 @@ typedef struct GasState {
     double temperature, density, mass, energy; /* energy: internal, mass integral of cv dT [energy] */
     double mass_flow_in, mass_flow_out, mass_flow_out_vent, mass_flow_out_porosity; /* rates of the last step [M/T] */
     double mass_in, mass_out;                                                       /* cumulated [M] */
-    double enthalpy_in, enthalpy_out;                                               /* cumulated [energy] */
-    double heat_out, work; /* cumulated; work = integral of p dV done by the gas */
-    double cap_work;       /* part of work done on the caps (no rim force) */
-    double applied;        /* PSCA (p - ambient): pressure on the walls */
+    double counted_in, counted_out;   /* the part of them that the rates have told */
+    double enthalpy_in, enthalpy_out; /* cumulated [energy] */
+    double heat_out, work;            /* cumulated; work = integral of p dV done by the gas */
+    double cap_work;                  /* part of work done on the caps (no rim force) */
+    double applied;                   /* PSCA (p - ambient): pressure on the walls */
     double opened;         /* 1 once the pop pressure was reached or none is needed; of GAS_ADIABATIC: preload over */
     double initial_volume; /* of the gas */
     double species[BILLOW_GAS_SPECIES]; /* masses of a mixture's gases [M] */
@@ -161,6 +162,14 @@ int gas_initialize(const GasModel *gas, const Curve *curves, double vsca, double
  * the guard; a negative one is a failure unless the bag is flat (|V| < BILLOW_GAS_FLAT A^1.5). */
 int gas_advance(const GasModel *gas, const Curve *curves, double vsca, double psca, double vini, const GasStep *step,
                 GasState *state, const char **why);
+
+struct GasSide; /* airbag/connection.h */
+
+/* Pressure, temperature and what the walls feel, after mass and energy were changed from outside (connection.h). */
+void gas_refresh(struct GasSide *side, const Curve *curves, double time);
+
+/* Whether bags of a kind may be connected. */
+bool gas_connects(GasKind kind);
 
 /* A step that resolves the gas itself (used when no element sets the step): a small share of the times in which the
  * flows fill, empty or cool the bag, and at most up to the next corner of the curves over time. Finite and positive. */

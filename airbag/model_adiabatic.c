@@ -77,4 +77,4 @@ static double time_scale(const GasModel *gas, const Curve *curves, const GasStat
     return chamber_next_corner(curves, gas->adiabatic.preload_curve, time, 0.0, CHAMBER_NO_SCALE);
 }
 
-const ChamberModel chamber_adiabatic = {"ADIABATIC_GAS_MODEL", start, advance, time_scale};
+const ChamberModel chamber_adiabatic = {"ADIABATIC_GAS_MODEL", start, advance, time_scale, NULL, NULL};

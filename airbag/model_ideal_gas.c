@@ -143,7 +143,22 @@ static const char *advance(const GasModel *gas, const Curve *curves, const GasSt
     return NULL;
 }
 
-const ChamberModel chamber_ideal_gas_simple = {"SIMPLE_AIRBAG_MODEL", start, advance, ideal_gas_time_scale};
-const ChamberModel chamber_ideal_gas_wang_nefske = {"WANG_NEFSKE", start, advance, ideal_gas_time_scale};
-const ChamberModel chamber_ideal_gas_hybrid = {"HYBRID", start, advance, ideal_gas_time_scale};
-const ChamberModel chamber_ideal_gas_chemkin = {"HYBRID_CHEMKIN", start, advance, ideal_gas_time_scale};
+static void refresh(const GasModel *gas, const Curve *curves, double time, GasState *state)
+{
+    (void)curves, (void)time;
+    GasLaw law = gas_law_of(gas, state);
+    if (state->mass > 0.0) state->temperature = gas_temperature(&law, state->mass, 0.0, state->energy);
+    state->density = state->mass / state->volume;
+    state->pressure = state->density * law.r * state->temperature;
+    gas_check_pop(gas, state);
+    update_applied(gas, &law, state);
+}
+
+#define IDEAL_GAS(name)                                                                                                \
+    {                                                                                                                  \
+        name, start, advance, ideal_gas_time_scale, refresh, NULL                                                      \
+    }
+const ChamberModel chamber_ideal_gas_simple = IDEAL_GAS("SIMPLE_AIRBAG_MODEL");
+const ChamberModel chamber_ideal_gas_wang_nefske = IDEAL_GAS("WANG_NEFSKE");
+const ChamberModel chamber_ideal_gas_hybrid = IDEAL_GAS("HYBRID");
+const ChamberModel chamber_ideal_gas_chemkin = IDEAL_GAS("HYBRID_CHEMKIN");

@@ -148,4 +148,13 @@ static double time_scale(const GasModel *gas, const Curve *curves, const GasStat
     return scale;
 }
 
-const ChamberModel chamber_linear_fluid = {"LINEAR_FLUID", start, advance, time_scale};
+static double pressure_at_mass(const GasModel *gas, const Curve *curves, double time, const GasState *state,
+                               double mass)
+{
+    GasState other = *state;
+    other.mass = mass;
+    set_pressure(gas, curves, time, &other);
+    return other.pressure;
+}
+
+const ChamberModel chamber_linear_fluid = {"LINEAR_FLUID", start, advance, time_scale, set_pressure, pressure_at_mass};

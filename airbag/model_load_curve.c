@@ -62,4 +62,14 @@ static double time_scale(const GasModel *gas, const Curve *curves, const GasStat
     return chamber_next_corner(curves, law->pressure_curve, time, law->start_time, scale);
 }
 
-const ChamberModel chamber_load_curve = {"LOAD_CURVE", start, advance, time_scale};
+/* A pressure by curve does not know the mass: a reservoir. */
+static double pressure_at_mass(const GasModel *gas, const Curve *curves, double time, const GasState *state,
+                               double mass)
+{
+    GasState other = *state;
+    other.mass = mass;
+    set_pressure(gas, curves, time, &other);
+    return other.pressure;
+}
+
+const ChamberModel chamber_load_curve = {"LOAD_CURVE", start, advance, time_scale, set_pressure, pressure_at_mass};

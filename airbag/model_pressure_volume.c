@@ -52,4 +52,4 @@ static double time_scale(const GasModel *gas, const Curve *curves, const GasStat
     return chamber_next_corner(curves, gas->pressure_volume.coefficient_curve, time, 0.0, CHAMBER_NO_SCALE);
 }
 
-const ChamberModel chamber_pressure_volume = {"SIMPLE_PRESSURE_VOLUME", start, advance, time_scale};
+const ChamberModel chamber_pressure_volume = {"SIMPLE_PRESSURE_VOLUME", start, advance, time_scale, NULL, NULL};

@@ -134,7 +134,7 @@ static int run_stages(Builder *b)
     errors = b->diagnostics->errors;
     if (build_surfaces(b)) status = -1;
     if (status && b->diagnostics->errors == errors) return -1;
-    if (build_airbags(b)) status = -1;
+    if (build_airbags(b) || build_connections(b)) status = -1;
     if (build_mass_scaling(b)) status = -1;
     lump_masses(b);
     if (build_movement(b)) status = -1;

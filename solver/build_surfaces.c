@@ -98,10 +98,22 @@ static int add_source(Builder *b, int32_t record, int source, int sign, bool pus
     return 0;
 }
 
-/* NONULL: shells of *MAT_NULL bound the bag but do not feel its pressure. */
+/* EXCP = 1 of *AIRBAG_INTERACTION: the part between two bags feels the pressure of neither. */
+static bool is_excluded(const Builder *b, const AirbagDefinition *bag, int part_id)
+{
+    for (size_t i = 0; bag->id != 0 && i < b->definitions->interactions.count; i++) {
+        const InteractionDefinition *c = &b->definitions->interactions.items[i];
+        if (c->excp != 0 && abs(c->pid) == part_id && (c->ab1 == bag->id || c->ab2 == bag->id)) return true;
+    }
+    return false;
+}
+
+/* Shells of *MAT_NULL in a bag with NONULL, and excluded partitions, bound a bag but do not feel its pressure. */
 static bool feels_pressure(const Builder *b, const AirbagDefinition *bag, const ShellRecord *r)
 {
-    if (bag->nonull == 0 || r->part < 0 || b->parts[r->part].material < 0) return true;
+    if (r->part < 0) return true;
+    if (is_excluded(b, bag, b->model->parts[r->part].id)) return false;
+    if (bag->nonull == 0 || b->parts[r->part].material < 0) return true;
     return b->definitions->materials.items[b->parts[r->part].material].kind != MATERIAL_NULL;
 }
 

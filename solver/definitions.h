@@ -354,6 +354,14 @@ typedef struct AirbagDefinition {
     Source source, card1, card3, card4, card5, card6, card7;
 } AirbagDefinition;
 
+/* *AIRBAG_INTERACTION */
+typedef struct InteractionDefinition {
+    int ab1, ab2;
+    double area, sf;
+    int pid, lcid, iflow, excp;
+    Source source;
+} InteractionDefinition;
+
 /* Everything of one deck. Zero-initialise, fill with deck_read (io/read.h), free with definitions_free. */
 typedef struct Definitions {
     char title[BILLOW_TITLE_LENGTH];
@@ -382,6 +390,7 @@ typedef struct Definitions {
     LIST(GravityPartDefinition) gravity_parts;
     LIST(DampingDefinition) dampings;
     LIST(AirbagDefinition) airbags;
+    LIST(InteractionDefinition) interactions;
 } Definitions;
 
 void definitions_free(Definitions *definitions);

@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "airbag/connection.h"
 #include "airbag/gas.h"
 #include "airbag/surface.h"
 #include "elements/law.h"
@@ -141,6 +142,8 @@ typedef struct Model {
     Part *parts;
     int airbag_count;
     Airbag *airbags;
+    int connection_count;
+    GasConnection *connections; /* airbag/connection.h */
     int curve_count;
     Curve *curves;
     int segment_load_count;

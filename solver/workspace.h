@@ -60,6 +60,8 @@ typedef struct Workspace {
     int node_chunk_count;                 /* chunks of free nodes */
     double *bag_pressure, *load_pressure; /* of each pressure set */
     double *set_volume, *set_area;
+    double *group_area;                                     /* of each group, of this cycle [L2] */
+    double *part_area;                                      /* of each part [L2] */
     double *source_pressure;                                /* airbags, then segment loads */
     double *class_gravity, *class_damping, *class_velocity; /* (class_count x 3) */
     double *stagnation;                                     /* SPSF x ambient density by pressure set */
@@ -91,6 +93,8 @@ extern const NodeKernels node_kernels_v2, node_kernels_v3, node_kernels_v4;
 
 /* Phases of the cycle. */
 void step_elements(Workspace *w, int thread, int threads);          /* all threads */
+int step_bags(Workspace *w);                                        /* thread 0: gas of all bags to t_n; -1 failed */
+double step_bags_scale(const Workspace *w);                         /* a step that resolves the gas by itself */
 void step_gas(Workspace *w);                                        /* thread 0: sums, gas, pressures, next step */
 void step_gas_pass(Workspace *w, int thread, int threads);          /* all threads: sums of the implicit gas */
 void step_gas_implicit(Workspace *w);                               /* thread 0: pressures at the mean volume */

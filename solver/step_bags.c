@@ -1,0 +1,92 @@
+/* The gas of all bags from t_{n-1} to t_n on the walls at t_n. */
+#include "solver/workspace.h"
+
+/* Volumes and areas of the bags, areas of the parts. */
+static void measure_bags(Workspace *w)
+{
+    const Model *m = w->model;
+    for (int i = 0; i < m->airbag_count; i++) {
+        double cap = surface_cap_volume(&m->airbags[i].closure, w->state->x, m->origin);
+        w->bag_volume[i] = cap;
+        w->bag_area[i] = 0.0;
+        w->state->gas[i].cap_work += w->state->gas[i].applied * (cap - w->state->cap_volume[i]);
+        w->state->cap_volume[i] = cap;
+    }
+    for (int s = 0; s < m->pressure_set_count; s++) {
+        const PressureSet *set = &m->pressure_sets[s];
+        for (int k = 0; k < set->count; k++) {
+            if (set->source[k] >= m->airbag_count) continue;
+            w->bag_volume[set->source[k]] += set->sign[k] * w->set_volume[s];
+            w->bag_area[set->source[k]] += w->set_area[s];
+        }
+    }
+    for (int p = 0; p < m->part_count; p++) w->part_area[p] = 0.0;
+    for (int g = 0; g < m->group_count; g++)
+        if (m->groups[g].part >= 0) w->part_area[m->groups[g].part] += w->group_area[g];
+}
+
+static GasSide side_of(const Workspace *w, int bag)
+{
+    const Airbag *airbag = &w->model->airbags[bag];
+    return (GasSide){&airbag->gas, &w->state->gas[bag], airbag->vsca, airbag->psca};
+}
+
+static double opening_of(const Workspace *w, const GasConnection *c)
+{
+    return c->part >= 0 ? w->part_area[c->part] : 0.0;
+}
+
+/* Exchange between connected bags over a span, in order or in the reverse. */
+static void connect_bags(Workspace *w, double time, double span, bool reverse)
+{
+    const Model *m = w->model;
+    for (int i = 0; i < m->connection_count; i++) {
+        const GasConnection *c = &m->connections[reverse ? m->connection_count - 1 - i : i];
+        gas_connect(c, m->curves, side_of(w, c->bag[0]), side_of(w, c->bag[1]), time, span, opening_of(w, c));
+    }
+}
+
+static int advance_bag(Workspace *w, int i, double time, double dt)
+{
+    const Airbag *bag = &w->model->airbags[i];
+    GasStep step = {.time = time, .dt = dt, .volume = w->bag_volume[i], .area = w->bag_area[i]};
+    const char *why = "";
+    if (!gas_advance(&bag->gas, w->model->curves, bag->vsca, bag->psca, bag->vini, &step, &w->state->gas[i], &why))
+        return 0;
+    step_fail(w,
+              "look at the last state written: walls that pass through each other or a step that is too large "
+              "do this; lower TSSFAC, or close the bag",
+              "airbag %d: %s (volume %g)", bag->id, why, w->bag_volume[i]);
+    return -1;
+}
+
+/* Half of the exchange at the old volumes, each bag by itself, the other half at the new ones: Strang's splitting, as
+ * within a bag (eq. G46). */
+int step_bags(Workspace *w)
+{
+    double dt = w->plan.dt_before, time = w->plan.time - dt;
+    measure_bags(w);
+    if (!(dt > 0.0)) return 0;
+    connect_bags(w, time, 0.5 * dt, false);
+    for (int i = 0; i < w->model->airbag_count; i++)
+        if (advance_bag(w, i, time, dt)) return -1;
+    connect_bags(w, time + 0.5 * dt, 0.5 * dt, true);
+    return 0;
+}
+
+double step_bags_scale(const Workspace *w)
+{
+    const Model *m = w->model;
+    double scale = 1e20;
+    for (int i = 0; i < m->airbag_count; i++) {
+        double own = gas_time_scale(&m->airbags[i].gas, m->curves, &w->state->gas[i], w->plan.time);
+        scale = own < scale ? own : scale;
+    }
+    for (int i = 0; i < m->connection_count; i++) {
+        const GasConnection *c = &m->connections[i];
+        double own = gas_connection_scale(c, m->curves, side_of(w, c->bag[0]), side_of(w, c->bag[1]), w->plan.time,
+                                          opening_of(w, c));
+        scale = own < scale ? own : scale;
+    }
+    return scale;
+}
