@@ -28,7 +28,7 @@ void gas_model_reset(GasModel *gas)
     gas->vent_coefficient_pressure_curve = gas->vent_area_pressure_curve = -1;
     gas->vent_coefficient_time_curve = gas->vent_coefficient_ratio_curve = -1;
     gas->porosity_coefficient_time_curve = gas->porosity_area_pressure_curve = -1;
-    gas->exit_flow_curve = gas->heat_transfer_curve = -1;
+    gas->exit_flow_curve = gas->heat_transfer_curve = gas->inflator.burn_curve = -1;
     gas->pressure_volume = (PressureVolumeLaw){.coefficient_curve = -1, .relative_curve = -1};
     gas->adiabatic = (AdiabaticLaw){.factor = 1.0, .preload_curve = -1};
     gas->load_curve = (LoadCurveLaw){.pressure_curve = -1};

@@ -37,6 +37,24 @@ typedef struct GasSource {
     double aspirated;        /* FMASS: mass of ambient gas that each mass of this one draws in */
 } GasSource;
 
+/* Card 6 of *AIRBAG_WANG_NEFSKE: a rigid chamber that burning propellant fills and an orifice empties into the bag. */
+typedef struct InflatorChamber {
+    double coefficient, area; /* IOC, IOA */
+    double volume;            /* IVOL; 0: there is no inflator */
+    double density;           /* IRO: times IVOL the mass that the whole burn releases */
+    double temperature;       /* IT: of the gas released */
+    int burn_curve;           /* LCBF: share burnt over time */
+} InflatorChamber;
+
+/* What opens the exits besides PPOP, and the delays (option POP). */
+typedef struct PopCriterion {
+    double delay;              /* TDP: after the pressure was reached */
+    double acceleration[3];    /* AXP, AYP, AZP in the local axes of a rigid body; 0: inactive */
+    double magnitude;          /* AMAGP; 0: inactive */
+    double duration;           /* TDURP: cumulated time beyond one of them */
+    double acceleration_delay; /* TDA: after that */
+} PopCriterion;
+
 /* *AIRBAG_SIMPLE_PRESSURE_VOLUME: factor coefficient / relative volume, or a curve over the relative volume. */
 typedef struct PressureVolumeLaw {
     double coefficient, factor; /* CN >= 0, BETA */
@@ -88,6 +106,7 @@ typedef struct GasModel {
     int mass_flow_curve;        /* LCID or LCMT with TVOL = 0 */
     int tank_pressure_curve;    /* LCMT with TVOL > 0 */
     double tank_volume;
+    InflatorChamber inflator;
     double initial_temperature;                                    /* IABT or T_EXT; 0: from PE and RO */
     double ambient_pressure, ambient_density, ambient_temperature; /* PE, RO, T_EXT */
     double gravity_conversion;                                     /* GC */
@@ -102,8 +121,9 @@ typedef struct GasModel {
     int exit_flow_curve;                                               /* LOU, LCEFR: mass flow over gauge pressure */
     double overpressure;                                               /* POVER: initial gauge pressure */
     double pop_pressure;                                               /* PPOP: gauge pressure that opens the exits */
-    double heat_transfer;                                              /* HCONV >= 0 */
-    int heat_transfer_curve;                                           /* HCONV < 0: over time */
+    PopCriterion pop;
+    double heat_transfer;    /* HCONV >= 0 */
+    int heat_transfer_curve; /* HCONV < 0: over time */
     /* Laws without a temperature */
     double density; /* R0, RO of what fills the bag at the start */
     PressureVolumeLaw pressure_volume;
@@ -134,6 +154,9 @@ typedef struct GasState {
     double guard;                           /* smallest gas volume [L3] */
     double flat;                            /* 1 as long as a bag that started flat is flat */
     double tank_pressure, tank_temperature; /* of the tank test behind tank_pressure_curve, cp(T) only */
+    double inflator_mass, inflator_energy;  /* in the inflator's chamber */
+    double open_time;                       /* at which the exits open; 1e300: nothing has tripped them yet */
+    double pop_time;                        /* cumulated beyond the acceleration that opens the exits */
     double carry[8];                        /* rounding errors of the ledger's sums (gas_ledger.h) */
 } GasState;
 

@@ -4,6 +4,7 @@
 #include "airbag/gas_heat.h"
 #include "airbag/gas_inflow.h"
 #include "airbag/gas_ledger.h"
+#include "airbag/gas_pop.h"
 #include "airbag/gas_vent.h"
 
 static const double RESIDUAL = 1e-14; /* of (G18), relative to the mass */
@@ -17,12 +18,6 @@ typedef struct Discharge {
     double time, span; /* end of the sub-step; weight of its implicit part times its length */
     GasExit exit;      /* the last flow that was not zero */
 } Discharge;
-
-void gas_check_pop(const GasModel *gas, GasState *state)
-{
-    if (state->opened > 0.0 || state->flat > 0.0) return;
-    if (state->pressure - gas->ambient_pressure >= gas->pop_pressure) state->opened = 1.0;
-}
 
 static void update_state_of_gas(GasLaw *law, GasState *state)
 {
@@ -162,25 +157,33 @@ static void exchange_open(const GasModel *gas, const GasLaw *law, const Curve *c
     count_outflow(state, late, discharge.exit);
 }
 
+void gas_exchange_flow(const GasModel *gas, GasLaw *law, const Curve *curves, double time, double span,
+                       const GasInflow *inflow, GasState *state)
+{
+    if (state->opened > 0.0) {
+        exchange_open(gas, law, curves, time, span, inflow, state);
+    } else {
+        exchange_closed(law, inflow, state);
+    }
+    gas_law_mix(law, state->species);
+    gas_book(&state->mass_in, &state->carry[CARRY_MASS_IN], inflow->mass);
+    gas_book(&state->enthalpy_in, &state->carry[CARRY_ENTHALPY_IN], inflow->enthalpy);
+    update_state_of_gas(law, state);
+}
+
 void gas_exchange(const GasModel *gas, GasLaw *law, const Curve *curves, double time, double span, double area,
                   GasState *state)
 {
-    gas_check_pop(gas, state);
+    gas_check_pop(gas, time, state);
     gas_lose_heat(gas, law, curves, time, time + 0.5 * span, area, state);
     update_state_of_gas(law, state);
-    GasTank tank = {state->tank_pressure, state->tank_temperature};
-    GasInflow inflow = gas_inflow(gas, law, curves, time, time + span, &tank);
-    state->tank_pressure = tank.pressure;
-    state->tank_temperature = tank.temperature;
-    if (state->opened > 0.0) {
-        exchange_open(gas, law, curves, time, span, &inflow, state);
-    } else {
-        exchange_closed(law, &inflow, state);
-    }
-    gas_law_mix(law, state->species);
-    gas_book(&state->mass_in, &state->carry[CARRY_MASS_IN], inflow.mass);
-    gas_book(&state->enthalpy_in, &state->carry[CARRY_ENTHALPY_IN], inflow.enthalpy);
-    update_state_of_gas(law, state);
+    GasSupply supply = gas_supply_of(state);
+    GasInflow inflow = gas_inflow(gas, law, curves, time, time + span, &supply);
+    state->tank_pressure = supply.pressure;
+    state->tank_temperature = supply.temperature;
+    state->inflator_mass = supply.inflator_mass;
+    state->inflator_energy = supply.inflator_energy;
+    gas_exchange_flow(gas, law, curves, time, span, &inflow, state);
     gas_lose_heat(gas, law, curves, time + 0.5 * span, time + span, area, state);
     update_state_of_gas(law, state);
 }

@@ -22,6 +22,7 @@ double gas_inflow_next_corner(const GasModel *gas, const Curve *curves, double t
     double corner = INFINITY;
     corner = next_corner_of(curves, gas->mass_flow_curve, time, corner);
     corner = next_corner_of(curves, gas->tank_pressure_curve, time, corner);
+    corner = next_corner_of(curves, gas->inflator.burn_curve, time, corner);
     for (int i = 0; i < gas->species_count; i++) {
         corner = next_corner_of(curves, gas->sources[i].mass_flow_curve, time, corner);
         corner = next_corner_of(curves, gas->sources[i].temperature_curve, time, corner);
@@ -69,7 +70,7 @@ static GasInflow curve_inflow(const GasModel *gas, const GasLaw *law, const Curv
 }
 
 GasInflow gas_inflow(const GasModel *gas, const GasLaw *law, const Curve *curves, double begin, double end,
-                     GasTank *tank)
+                     GasSupply *supply)
 {
     GasInflow total = {0};
     while (begin < end) {
@@ -80,8 +81,10 @@ GasInflow gas_inflow(const GasModel *gas, const GasLaw *law, const Curve *curves
             for (int i = 0; i < gas->species_count; i++) total.species[i] += piece.species[i];
         } else if (gas->mass_flow_curve >= 0) {
             piece = curve_inflow(gas, law, curves, begin, stop);
+        } else if (gas->inflator.volume > 0.0) {
+            piece = gas_inflator_flow(gas, law, curves, begin, stop, supply);
         } else if (gas->tank_pressure_curve >= 0) {
-            piece = gas_tank_inflow(gas, law, curves, begin, stop, tank);
+            piece = gas_tank_inflow(gas, law, curves, begin, stop, supply);
         }
         total.mass += piece.mass;
         total.enthalpy += piece.enthalpy;

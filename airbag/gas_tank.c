@@ -7,9 +7,9 @@ static double filled_from_vacuum(const GasLaw *law, double inflow_temperature)
     return gas_temperature(law, 1.0, 0.0, gas_enthalpy(law, inflow_temperature));
 }
 
-GasTank gas_tank_initial(const GasModel *gas, const GasLaw *law, const Curve *curves, double temperature)
+GasSupply gas_tank_initial(const GasModel *gas, const GasLaw *law, const Curve *curves, double temperature)
 {
-    GasTank tank = {gas->ambient_pressure, temperature};
+    GasSupply tank = {.pressure = gas->ambient_pressure, .temperature = temperature};
     if (tank.pressure <= 0.0) tank.temperature = filled_from_vacuum(law, gas_inflow_temperature(gas, curves, 0.0));
     return tank;
 }
@@ -55,7 +55,7 @@ static double tank_step(const GasLaw *law, const double enthalpy[3], double pres
 }
 
 static double fill_tank(const GasModel *gas, const GasLaw *law, const Curve *curves, double begin, double end,
-                        double rise, const GasTank *tank)
+                        double rise, const GasSupply *tank)
 {
     if (tank->pressure <= 0.0) return filled_from_vacuum(law, gas_inflow_temperature(gas, curves, begin));
     int count = (int)fmin(1.0 + rise / (0.1 * tank->pressure), 200.0);
@@ -72,7 +72,7 @@ static double fill_tank(const GasModel *gas, const GasLaw *law, const Curve *cur
 }
 
 GasInflow gas_tank_inflow(const GasModel *gas, const GasLaw *law, const Curve *curves, double begin, double end,
-                          GasTank *tank)
+                          GasSupply *tank)
 {
     const Curve *curve = &curves[gas->tank_pressure_curve];
     double rise = curve_value(curve, end) - curve_value(curve, begin);
@@ -80,7 +80,7 @@ GasInflow gas_tank_inflow(const GasModel *gas, const GasLaw *law, const Curve *c
         if (rise <= 0.0) return (GasInflow){0};
         return inflow_constant(gas, law, curves, begin, end, rise);
     }
-    GasTank before = *tank;
+    GasSupply before = *tank;
     tank->pressure = fmax(before.pressure + rise, 0.0);
     if (rise <= 0.0) { /* the tank cools: its mass stays */
         if (before.pressure > 0.0) tank->temperature = before.temperature * (tank->pressure / before.pressure);

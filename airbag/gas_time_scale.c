@@ -32,8 +32,8 @@ static double fill_scale(const GasModel *gas, const GasLaw *law, const Curve *cu
                          double time, double horizon)
 {
     for (int i = 0; i < 100; i++) {
-        GasTank tank = {state->tank_pressure, state->tank_temperature};
-        GasInflow inflow = gas_inflow(gas, law, curves, time, time + horizon, &tank);
+        GasSupply supply = gas_supply_of(state);
+        GasInflow inflow = gas_inflow(gas, law, curves, time, time + horizon, &supply);
         if (!(inflow.mass > 0.0)) return horizon;
         if (!(state->mass > 0.0)) return EMPTY_SHARE * horizon;
         double share = fmax(inflow.mass / state->mass, inflow.enthalpy / state->energy);

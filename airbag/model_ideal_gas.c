@@ -5,6 +5,7 @@
 #include "airbag/gas_inflow.h"
 #include "airbag/gas_law.h"
 #include "airbag/gas_ledger.h"
+#include "airbag/gas_pop.h"
 #include "airbag/gas_vent.h"
 
 enum { SUBSTEPS_MAX = 64 };
@@ -37,6 +38,10 @@ static const char *find_fault(const GasModel *gas)
     if ((gas->mass_flow_curve >= 0 || gas->tank_pressure_curve >= 0) && gas->temperature_curve < 0 &&
         gas->temperature_rate_curve < 0 && !(gas->inflow_temperature > 0.0))
         return "T must be positive: it is the temperature of the gas that flows in";
+    const InflatorChamber *inflator = &gas->inflator;
+    if (inflator->volume > 0.0 && !(inflator->coefficient > 0.0 && inflator->area > 0.0 && inflator->density > 0.0 &&
+                                    inflator->temperature > 0.0))
+        return "IOC, IOA, IRO and IT must be positive: they make the inflator with IVOL";
     if (gas->tank_pressure_curve >= 0 && !(gas->tank_volume > 0.0)) return "TVOL must be positive";
     return NULL;
 }
@@ -60,9 +65,12 @@ static const char *start(const GasModel *gas, const Curve *curves, GasState *sta
     state->initial_energy = state->energy;
     state->density = state->mass / state->volume;
     state->pressure = pressure;
-    state->opened = gas->pop_pressure > 0.0 ? 0.0 : 1.0;
-    gas_check_pop(gas, state);
-    GasTank tank = gas_tank_initial(gas, &law, curves, temperature);
+    gas_start_pop(gas, state);
+    if (gas->inflator.volume > 0.0 && pressure > 0.0) { /* full of ambient gas */
+        state->inflator_mass = gas->ambient_pressure * gas->inflator.volume / (law.r * temperature);
+        state->inflator_energy = state->inflator_mass * gas_internal_energy(&law, temperature);
+    }
+    GasSupply tank = gas_tank_initial(gas, &law, curves, temperature);
     state->tank_pressure = tank.pressure;
     state->tank_temperature = tank.temperature;
     update_applied(gas, &law, state);
@@ -73,8 +81,8 @@ static const char *start(const GasModel *gas, const Curve *curves, GasState *sta
 static int count_substeps(const GasModel *gas, const GasLaw *law, const Curve *curves, const GasStep *step,
                           double volume, const GasState *state)
 {
-    GasTank tank = {state->tank_pressure, state->tank_temperature};
-    GasInflow inflow = gas_inflow(gas, law, curves, step->time, step->time + step->dt, &tank);
+    GasSupply supply = gas_supply_of(state);
+    GasInflow inflow = gas_inflow(gas, law, curves, step->time, step->time + step->dt, &supply);
     GasExit exit = gas_exit_flow(gas, law, curves, step->time, state->pressure, state->temperature);
     double out = (exit.vent + exit.porosity) * step->dt;
     int heat = gas->heat_transfer > 0.0 || gas->heat_transfer_curve >= 0;
@@ -138,19 +146,19 @@ static const char *advance(const GasModel *gas, const Curve *curves, const GasSt
     const char *failure = find_failure(&law, state);
     if (failure) return failure;
     if (state->volume > state->guard * (BILLOW_GAS_FLAT / BILLOW_GAS_GUARD)) state->flat = 0.0;
-    gas_check_pop(gas, state);
+    gas_check_pop(gas, step->time + step->dt, state);
     update_applied(gas, &law, state);
     return NULL;
 }
 
 static void refresh(const GasModel *gas, const Curve *curves, double time, GasState *state)
 {
-    (void)curves, (void)time;
+    (void)curves;
     GasLaw law = gas_law_of(gas, state);
     if (state->mass > 0.0) state->temperature = gas_temperature(&law, state->mass, 0.0, state->energy);
     state->density = state->mass / state->volume;
     state->pressure = state->density * law.r * state->temperature;
-    gas_check_pop(gas, state);
+    gas_check_pop(gas, time, state);
     update_applied(gas, &law, state);
 }
 

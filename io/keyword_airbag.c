@@ -55,9 +55,9 @@ static const FieldSpec wang5_fields[] = {
     CARD_REAL("OPT", opt, USED, NONE),         CARD_INT("KNKDN", knkdn, LISTED, ID_FUNCTION),
 };
 static const FieldSpec wang6_fields[] = {
-    CARD_REAL("IOC", ioc, REFUSED, NONE),      CARD_REAL("IOA", ioa, REFUSED, AREA),
-    CARD_REAL("IVOL", ivol, REFUSED, VOLUME),  CARD_REAL("IRO", iro, REFUSED, DENSITY),
-    CARD_REAL("IT", it, REFUSED, TEMPERATURE), CARD_INT("LCBF", lcbf, REFUSED, ID_FUNCTION),
+    CARD_REAL("IOC", ioc, USED, NONE),      CARD_REAL("IOA", ioa, USED, AREA),
+    CARD_REAL("IVOL", ivol, USED, VOLUME),  CARD_REAL("IRO", iro, USED, DENSITY),
+    CARD_REAL("IT", it, USED, TEMPERATURE), CARD_INT("LCBF", lcbf, USED, ID_FUNCTION),
 };
 static const FieldSpec wang6_spare_fields[] = {
     CARD_REAL("IOC", ioc, LISTED, NONE),      CARD_REAL("IOA", ioa, LISTED, AREA),
@@ -72,6 +72,16 @@ static const FieldSpec wang7_fields[] = {
     CARD_REAL("GASC", gasc, USED, NONE),
     CARD_REAL("HCONV", hconv, USED, NONE),
 };
+static const FieldSpec wang8_fields[] = {
+    CARD_REAL("TDP", tdp, USED, TIME),
+    CARD_REAL("AXP", axp, USED, ACCELERATION),
+    CARD_REAL("AYP", ayp, USED, ACCELERATION),
+    CARD_REAL("AZP", azp, USED, ACCELERATION),
+    CARD_REAL("AMAGP", amagp, USED, ACCELERATION),
+    CARD_REAL("TDURP", tdurp, USED, TIME),
+    CARD_REAL("TDA", tda, USED, TIME),
+    CARD_INT("RBIDP", rbidp, USED, ID_PART),
+};
 #undef AT
 
 enum { SIMPLE_CARD3 = AIRBAG_CARD_MODEL, SIMPLE_CARD4A, SIMPLE_CARD4B };
@@ -81,7 +91,8 @@ static const CardSpec simple_cards[] = {
     {"card 4a", "if CV = 0", CARD_FIELDS(simple4a_fields)},
     {"card 4b", "if CV is not 0; may be left out", CARD_FIELDS(simple4b_fields)},
 };
-enum { WANG_CARD3 = AIRBAG_CARD_MODEL, WANG_CARD4, WANG_CARD5, WANG_CARD6, WANG_CARD6_SPARE, WANG_CARD7 };
+enum { WANG_CARD3 = AIRBAG_CARD_MODEL, WANG_CARD4, WANG_CARD5, WANG_CARD6, WANG_CARD6_SPARE, WANG_CARD7, WANG_CARD8 };
+enum { WANG_POP = AIRBAG_OPTION_ID + 1 };
 static const CardSpec wang_cards[] = {
     AIRBAG_CARDS,
     {"card 3", "", CARD_FIELDS(wang3_fields)},
@@ -90,6 +101,7 @@ static const CardSpec wang_cards[] = {
     {"card 6", "if LCMT = 0", CARD_FIELDS(wang6_fields)},
     {"card 6", "if LCMT is not 0; to be left blank", CARD_FIELDS(wang6_spare_fields)},
     {"card 7", "if CV = 0", CARD_FIELDS(wang7_fields)},
+    {"card 8", "with POP", CARD_FIELDS(wang8_fields)},
 };
 
 /* ID card and card 1. A sensor's cards would follow card 1, so that what comes after it cannot be understood. */
@@ -167,6 +179,23 @@ int airbag_check_vents(const KeywordRead *read, AirbagDefinition *bag)
     return status;
 }
 
+/* Card 6 counts where LCMT = 0: all of it, or nothing. */
+static int check_inflator(const KeywordRead *read, const AirbagDefinition *bag)
+{
+    if (bag->lcmt != 0) return 0;
+    const bool all = bag->ioc > 0.0 && bag->ioa > 0.0 && bag->ivol > 0.0 && bag->iro > 0.0 && bag->it > 0.0;
+    const bool none = bag->ioc == 0.0 && bag->ioa == 0.0 && bag->ivol == 0.0 && bag->iro == 0.0 && bag->it == 0.0;
+    if (none && bag->lcbf == 0) {
+        keyword_warning(read, bag->card3, "LCMT = 0 and no inflator on card 6: no gas flows into this bag");
+        return 0;
+    }
+    if (all && bag->lcbf > 0) return 0;
+    keyword_error(read, bag->card6,
+                  "LCMT = 0 asks for the inflator: IOC, IOA, IVOL, IRO, IT must be positive and LCBF "
+                  "name the curve of the burnt fraction");
+    return -1;
+}
+
 static void read_wang_nefske(KeywordRead *read)
 {
     AirbagDefinition bag = {.model = AIRBAG_WANG_NEFSKE};
@@ -175,10 +204,13 @@ static void read_wang_nefske(KeywordRead *read)
     if (keyword_card(read, WANG_CARD4, &bag, true, &bag.card4)) return;
     if (keyword_card(read, WANG_CARD5, &bag, true, &bag.card5)) return;
     const int card6 = bag.lcmt == 0 ? WANG_CARD6 : WANG_CARD6_SPARE;
-    const bool needed = bag.lcmt == 0 || bag.cv == 0.0; /* as the last card it may be left out when it says nothing */
+    const bool pop = keyword_option(read, WANG_POP);
+    const bool needed =
+        bag.lcmt == 0 || bag.cv == 0.0 || pop; /* as the last card it may be left out when it says nothing */
     if ((needed || card_left(read->cards)) && keyword_card(read, card6, &bag, true, &bag.card6)) return;
     bag.card7 = bag.card6;
     if (bag.cv == 0.0 && keyword_card(read, WANG_CARD7, &bag, true, &bag.card7)) return;
+    if (pop && keyword_card(read, WANG_CARD8, &bag, true, &bag.card8)) return;
     keyword_finish(read);
     if (airbag_check_vents(read, &bag)) return;
     if (bag.lcmt < 0 || (bag.lcmt == 0 && bag.tvol != 0.0)) {
@@ -187,8 +219,7 @@ static void read_wang_nefske(KeywordRead *read)
         return;
     }
     if (bag.hconv < 0.0 && !keyword_real_id(read, &bag.hconv, SCALE_ID_FUNCTION, "HCONV", bag.card7)) return;
-    if (bag.lcmt == 0)
-        keyword_warning(read, bag.card3, "LCMT = 0 and no inflator on card 6: no gas flows into this bag");
+    if (check_inflator(read, &bag)) return;
     convert_heat(read, &bag);
     airbag_store(read, &bag);
 }
@@ -202,15 +233,20 @@ static const KeywordSpec specs[] = {
      .remark = "SIDTYP 0: SID is a segment set, else a part set. MU < 0 and AREA < 0 name curves over the absolute "
                "pressure. The sensor cards of RBID are refused."},
     {.name = "*AIRBAG_WANG_NEFSKE",
-     .options = {"ID"},
+     .options = {"ID", "POP"},
      .cards = wang_cards,
-     .card_count = 8,
+     .card_count = 9,
      .read = read_wang_nefske,
      .remark =
-         "Input is a mass flow (LCMT) or a tank pressure (LCMT with TVOL); the inflator of card 6 is refused. GC = 0 "
+         "Input is a mass flow (LCMT), a tank pressure (LCMT with TVOL) or the inflator of card 6, which releases the "
+         "mass "
+         "LCBF IRO IVOL at IT into its chamber. GC = 0 "
          "means 1. LCC23 < 0 names a curve over the pressure ratio; A23 < 0 (vent parts) is refused. OPT 1 to 8 "
          "switches CP23 and AP23 off; leakage through the fabric itself (FLC, FAC) is refused where it is not "
-         "zero. HCONV < 0 names a curve over time. The options POP, JETTING, MULTIPLE_JETTING and CM are refused."},
+         "zero. HCONV < 0 names a curve over time. With POP the exits open TDP after PPOP was reached, or TDA after "
+         "the accelerations of RBIDP in its local axes were exceeded for TDURP in all. The options JETTING, "
+         "MULTIPLE_JETTING "
+         "and CM are refused."},
 };
 
 const KeywordFamily keyword_family_airbag = {"Airbags", specs, (int)(sizeof specs / sizeof *specs)};

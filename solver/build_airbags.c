@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "airbag/gas_pop.h"
 #include "solver/build_airbags.h"
 
 int airbag_curve(Builder *b, int id, const char *field, Source source, int *status)
@@ -107,6 +108,10 @@ int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     else
         gas->mass_flow_curve = flow;
     gas->tank_volume = bag->tvol;
+    if (bag->lcmt == 0 && bag->lcbf > 0) {
+        int burn = airbag_curve(b, bag->lcbf, "LCBF", bag->card6, &status);
+        gas->inflator = (InflatorChamber){bag->ioc, bag->ioa, bag->ivol, bag->iro, bag->it, burn};
+    }
     if (bag->iabt > 0.0) gas->initial_temperature = bag->iabt;
     gas->gravity_conversion = bag->gc != 0.0 ? bag->gc : 1.0;
     if (airbag_vents(b, bag, gas)) status = -1;
@@ -118,6 +123,27 @@ int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     else
         gas->heat_transfer = bag->hconv;
     return status;
+}
+
+/* Option POP. */
+static int build_pop(Builder *b, const AirbagDefinition *d, Airbag *bag)
+{
+    bag->gas.pop = (PopCriterion){.delay = d->tdp,
+                                  .acceleration = {d->axp, d->ayp, d->azp},
+                                  .magnitude = d->amagp,
+                                  .duration = d->tdurp,
+                                  .acceleration_delay = d->tda};
+    bag->pop_part = -1;
+    if (!gas_pops_by_acceleration(&bag->gas)) return 0;
+    bag->pop_part = id_map_find(&b->index.parts, d->rbidp);
+    if (bag->pop_part >= 0) {
+        int material = b->parts[bag->pop_part].material;
+        if (material < 0 || b->definitions->materials.items[material].kind == MATERIAL_RIGID) return 0;
+    }
+    diagnostics_add(b->diagnostics, SEVERITY_ERROR, d->card8, "*AIRBAG",
+                    "RBIDP = %d is not a part of *MAT_RIGID: the accelerations AXP to AMAGP are those of a rigid body",
+                    d->rbidp);
+    return -1;
 }
 
 static int (*const build_model[])(Builder *, const AirbagDefinition *, GasModel *) = {
@@ -148,6 +174,7 @@ static int build_airbag(Builder *b, int number)
                         "SPSF has no effect: this model has no ambient density");
     gas_model_reset(&bag->gas);
     int status = build_model[definition->model](b, definition, &bag->gas);
+    if (build_pop(b, definition, bag)) status = -1;
     bag->ambient = bag->gas.ambient_pressure;
     if (status) return -1;
     GasState start;

@@ -339,6 +339,8 @@ typedef struct AirbagDefinition {
     int lcefr, knkdn;
     double ioc, ioa, ivol, iro, it; /* WANG_NEFSKE 6 */
     int lcbf;
+    double tdp, axp, ayp, azp, amagp, tdurp, tda; /* WANG_NEFSKE 8, option POP */
+    int rbidp;
     double atmost, atmosp, atmosd, cc; /* HYBRID 3, with gc, hconv; CHEMKIN 3 has atmost, atmosp and gc as RG */
     int ngas;                          /* HYBRID 5, with opt, lcefr, ppop as PVENT; CHEMKIN 3 */
     int lcidm0, vntopt, lcidm, lcidt, data;
@@ -351,7 +353,7 @@ typedef struct AirbagDefinition {
     int lcint, lcoutt, lcoutp, lcfit, lcbulk;
     double p_limit; /* LINEAR_FLUID 4 */
     int p_limlc, nonull;
-    Source source, card1, card3, card4, card5, card6, card7;
+    Source source, card1, card3, card4, card5, card6, card7, card8;
 } AirbagDefinition;
 
 /* *AIRBAG_INTERACTION */

@@ -86,6 +86,7 @@ typedef struct Airbag {
     int part_count;
     int *node; /* nodes on its surface (node_count), ascending */
     int node_count;
+    int pop_part;   /* RBIDP: index of the part whose acceleration may open the exits, -1 none */
     double ambient; /* pressure outside: applied pressure = p - ambient */
     Source source;
 } Airbag;

@@ -1,4 +1,6 @@
 /* The gas of all bags from t_{n-1} to t_n on the walls at t_n. */
+#include "airbag/gas_pop.h"
+#include "solver/vector3.h"
 #include "solver/workspace.h"
 
 /* Volumes and areas of the bags, areas of the parts. */
@@ -60,6 +62,30 @@ static int advance_bag(Workspace *w, int i, double time, double dt)
     return -1;
 }
 
+/* A global vector along the principal axes of a body. */
+static void to_local(const RigidBody *body, const RigidState *state, const double v[3], double local[3])
+{
+    double turn[9], initial[3];
+    quaternion_matrix(state->rotation, turn);
+    for (int i = 0; i < 3; i++) initial[i] = turn[i] * v[0] + turn[3 + i] * v[1] + turn[6 + i] * v[2];
+    for (int i = 0; i < 3; i++)
+        local[i] =
+            body->axes[3 * i] * initial[0] + body->axes[3 * i + 1] * initial[1] + body->axes[3 * i + 2] * initial[2];
+}
+
+/* Option POP: the acceleration of a rigid body over the step before, in its local axes. */
+static void sense_pop(Workspace *w, int i, double time, double dt)
+{
+    const Airbag *bag = &w->model->airbags[i];
+    GasState *gas = &w->state->gas[i];
+    if (bag->pop_part < 0 || gas->opened > 0.0) return;
+    int number = w->model->parts[bag->pop_part].rigid_body;
+    if (number < 0) return; /* it never moves */
+    double local[3] = {0};
+    to_local(&w->model->rigid_bodies[number], &w->state->rigid[number], w->state->rigid[number].a, local);
+    gas_sense_pop(&bag->gas, local, time + dt, dt, gas);
+}
+
 /* Half of the exchange at the old volumes, each bag by itself, the other half at the new ones: Strang's splitting, as
  * within a bag (eq. G46). */
 int step_bags(Workspace *w)
@@ -68,6 +94,7 @@ int step_bags(Workspace *w)
     measure_bags(w);
     if (!(dt > 0.0)) return 0;
     connect_bags(w, time, 0.5 * dt, false);
+    for (int i = 0; i < w->model->airbag_count; i++) sense_pop(w, i, time, dt);
     for (int i = 0; i < w->model->airbag_count; i++)
         if (advance_bag(w, i, time, dt)) return -1;
     connect_bags(w, time + 0.5 * dt, 0.5 * dt, true);
