@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "airbag/leakage.h"
 #include "airbag/species.h"
 #include "solver/curve.h"
 
@@ -118,9 +119,12 @@ typedef struct GasModel {
     int vent_coefficient_ratio_curve;                                  /* LCC23 < 0: over ambient pressure / pressure */
     double porosity_coefficient, porosity_area;                        /* CP23, AP23 */
     int porosity_coefficient_time_curve, porosity_area_pressure_curve; /* LCCP23, LCAP23 */
-    int exit_flow_curve;                                               /* LOU, LCEFR: mass flow over gauge pressure */
-    double overpressure;                                               /* POVER: initial gauge pressure */
-    double pop_pressure;                                               /* PPOP: gauge pressure that opens the exits */
+    int hole_count, leak_count;
+    GasHole *holes;      /* A23 < 0: vents that are parts (hole_count) */
+    GasLeak *leaks;      /* OPT > 0: leaking parts (leak_count) */
+    int exit_flow_curve; /* LOU, LCEFR: mass flow over gauge pressure */
+    double overpressure; /* POVER: initial gauge pressure */
+    double pop_pressure; /* PPOP: gauge pressure that opens the exits */
     PopCriterion pop;
     double heat_transfer;    /* HCONV >= 0 */
     int heat_transfer_curve; /* HCONV < 0: over time */
@@ -171,6 +175,7 @@ typedef struct GasStep {
     double time, dt; /* from time to time + dt */
     double volume;   /* at time + dt, as the mesh has it (VSCA and VINI not yet applied) [L3] */
     double area;     /* at time + dt [L2] */
+    GasAreas areas;  /* of the bag's parts at time + dt, for holes and leaks */
 } GasStep;
 
 /* Fills state for the initial volume at time 0: SIMPLE and WANG_NEFSKE start from PE, RO (T0 = PE/(RO (cp - cv)))

@@ -13,6 +13,7 @@ typedef struct GasLaw {
     int count;     /* gases of a mixture; 0: one gas */
     const GasSpecies *species;
     double fraction[BILLOW_GAS_SPECIES]; /* by mass */
+    const GasAreas *areas;               /* of the walls, for the exits; NULL: none are known */
     SpeciesPiece mixed;                  /* the mixture's heat capacity around near */
 } GasLaw;
 

@@ -142,6 +142,7 @@ static const char *advance(const GasModel *gas, const Curve *curves, const GasSt
                            GasState *state)
 {
     GasLaw law = gas_law_of(gas, state);
+    if (step->areas.part) law.areas = &step->areas;
     advance_substeps(gas, &law, curves, step, volume, state);
     const char *failure = find_failure(&law, state);
     if (failure) return failure;

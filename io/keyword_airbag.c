@@ -164,18 +164,18 @@ static void read_simple(KeywordRead *read)
 int airbag_check_vents(const KeywordRead *read, AirbagDefinition *bag)
 {
     int status = 0;
-    if (bag->a23 < 0.0) {
-        keyword_error(read, bag->card4,
-                      "A23 = %g makes part %g a vent, which billow " BILLOW_VERSION " does not read; give "
-                      "the vent's area",
-                      bag->a23, -bag->a23);
-        status = -1;
-    }
     if (bag->opt < 0.0 || bag->opt > 8.0) {
         keyword_error(read, bag->card5, "OPT is %g, but must be 0 to 8", bag->opt);
         status = -1;
     }
-    bag->a23 = keyword_scale(read, bag->a23, SCALE_AREA);
+    if (bag->a23 > 0.0) bag->a23 = keyword_scale(read, bag->a23, SCALE_AREA);
+    const FieldScale id = bag->lca23 == -1 ? SCALE_ID_SET : SCALE_ID_PART;
+    if (bag->a23 < 0.0 && !keyword_real_id(read, &bag->a23, id, "A23", bag->card4)) status = -1;
+    if (bag->lca23 < 0 && !(bag->lca23 == -1 && bag->a23 < 0.0)) {
+        keyword_error(read, bag->card4, "LCA23 is %d, but must name a curve, or be -1 with A23 < 0, a part set",
+                      bag->lca23);
+        status = -1;
+    }
     return status;
 }
 
@@ -241,9 +241,12 @@ static const KeywordSpec specs[] = {
          "Input is a mass flow (LCMT), a tank pressure (LCMT with TVOL) or the inflator of card 6, which releases the "
          "mass "
          "LCBF IRO IVOL at IT into its chamber. GC = 0 "
-         "means 1. LCC23 < 0 names a curve over the pressure ratio; A23 < 0 (vent parts) is refused. OPT 1 to 8 "
-         "switches CP23 and AP23 off; leakage through the fabric itself (FLC, FAC) is refused where it is not "
-         "zero. HCONV < 0 names a curve over time. With POP the exits open TDP after PPOP was reached, or TDA after "
+         "means 1. LCC23 < 0 names a curve over the pressure ratio. A23 < 0 makes part -A23 a vent, with LCA23 = -1 "
+         "the part set -A23; "
+         "it feels the pressure only if SID has it. OPT 1 to 8 switches CP23 and AP23 off and lets the materials leak "
+         "by "
+         "FLC and FAC. HCONV < 0 names a curve over time. With POP the exits open TDP after PPOP was reached, or TDA "
+         "after "
          "the accelerations of RBIDP in its local axes were exceeded for TDURP in all. The options JETTING, "
          "MULTIPLE_JETTING "
          "and CM are refused."},

@@ -19,7 +19,7 @@ static const FieldSpec hybrid5_fields[] = {
     CARD_INT("NGAS", ngas, USED, NONE),
     CARD_INT("LCEFR", lcefr, USED, ID_FUNCTION),
     CARD_INT("LCIDM0", lcidm0, USED, ID_FUNCTION),
-    CARD_INT("VNTOPT", vntopt, REFUSED, NONE),
+    CARD_INT("VNTOPT", vntopt, USED, NONE),
 };
 static const FieldSpec chemkin3_fields[] = {
     CARD_INT("LCIDM", lcidm, USED, ID_FUNCTION),
@@ -160,6 +160,10 @@ static void read_hybrid(KeywordRead *read)
         convert_gas(read, gas);
     }
     keyword_finish(read);
+    if (bag.vntopt != 0 && bag.vntopt != 1 && bag.vntopt != 2 && bag.vntopt != 10) {
+        keyword_error(read, bag.card5, "VNTOPT is %d, but must be 0, 1, 2 or 10", bag.vntopt);
+        return;
+    }
     if (airbag_check_vents(read, &bag) || convert_heat_transfer(read, &bag, bag.card3)) return;
     convert_constant(read, &bag);
     airbag_store(read, &bag);
@@ -207,7 +211,9 @@ static const KeywordSpec specs[] = {
      .remark =
          "Up to 17 gases. Negative LCIDM, LCIDT and LCIDM0 ask for a natural cubic spline through the points. FMASS "
          "draws in that share of ambient gas (of the composition INITM, at ATMOST). CC multiplies the energy in "
-         "the speed of the exit flow. PVENT opens the exits for good. Outflow has the bag's composition by mass."},
+         "the speed of the exit flow. PVENT opens the exits for good. Outflow has the bag's composition by mass. Vents "
+         "and "
+         "leakage as in WANG_NEFSKE; VNTOPT 1 and 10 count what a vent part has grown by; nothing erodes."},
     {.name = "*AIRBAG_HYBRID_CHEMKIN",
      .options = {"ID"},
      .cards = chemkin_cards,

@@ -63,12 +63,13 @@ static int initial_fractions(Builder *b, const AirbagDefinition *bag, bool moles
     return 0;
 }
 
-/* ATMOSD should be what ATMOSP, ATMOST and the gases of the start make it. */
-static void check_density(Builder *b, const AirbagDefinition *bag, const GasModel *gas)
+/* ATMOSD should be what ATMOSP, ATMOST and the gases of the start make it; where it is 0 that is taken. */
+static void check_density(Builder *b, const AirbagDefinition *bag, GasModel *gas)
 {
     double r = 0.0;
     for (int i = 0; i < gas->species_count; i++) r += gas->sources[i].initial_fraction * gas->species[i].r;
     double density = bag->atmosp / (r * bag->atmost);
+    if (!(gas->ambient_density > 0.0)) gas->ambient_density = density;
     if (bag->atmosd > 0.0 && fabs(bag->atmosd / density - 1.0) > 0.05)
         diagnostics_add(
             b->diagnostics, SEVERITY_WARNING, bag->card3, "*AIRBAG",

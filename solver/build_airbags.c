@@ -79,7 +79,7 @@ int airbag_vents(Builder *b, const AirbagDefinition *bag, GasModel *gas)
 {
     int status = 0;
     gas->vent_coefficient = bag->c23;
-    gas->vent_area = bag->a23;
+    gas->vent_area = bag->a23 > 0.0 ? bag->a23 : 0.0;
     if (bag->c23 == 0.0 && bag->lcc23 < 0)
         gas->vent_coefficient_ratio_curve = airbag_curve(b, bag->lcc23, "LCC23", bag->card4, &status);
     else if (bag->c23 == 0.0)
@@ -174,7 +174,7 @@ static int build_airbag(Builder *b, int number)
                         "SPSF has no effect: this model has no ambient density");
     gas_model_reset(&bag->gas);
     int status = build_model[definition->model](b, definition, &bag->gas);
-    if (build_pop(b, definition, bag)) status = -1;
+    if (build_pop(b, definition, bag) || airbag_leakage(b, definition, bag)) status = -1;
     bag->ambient = bag->gas.ambient_pressure;
     if (status) return -1;
     GasState start;

@@ -16,6 +16,9 @@ int airbag_error(Builder *b, Source source, const char *text);
 /* Vents and leakage of the card that has C23 first (WANG_NEFSKE card 4, HYBRID card 4). 0, or -1 after reporting. */
 int airbag_vents(Builder *b, const AirbagDefinition *bag, GasModel *gas);
 
+/* Vents that are parts and leaking materials of the bag; sets surface_parts. 0, or -1 after reporting. */
+int airbag_leakage(Builder *b, const AirbagDefinition *bag, Airbag *airbag);
+
 /* Fill the gas, which is reset, from the cards. 0, or -1 after reporting. */
 int airbag_simple(Builder *b, const AirbagDefinition *bag, GasModel *gas);
 int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, GasModel *gas);

@@ -65,6 +65,7 @@ int build_surfaces(Builder *builder);          /* airbags' surfaces: orientation
 int build_pressure_sets(Builder *builder);     /* and segment loads -> pressure sets; after build_motion */
 int build_airbags(Builder *builder);           /* gas models; after build_surfaces */
 int build_connections(Builder *builder);       /* between bags; after build_airbags */
+int build_areas(Builder *builder);             /* of the bags' parts at the start; after build_groups */
 int build_output(Builder *builder);            /* termination, step control, output plan */
 int build_mass_scaling(Builder *builder);      /* DT2MS */
 int build_renumber(Builder *builder);          /* node and element order for locality */

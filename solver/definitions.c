@@ -22,7 +22,8 @@ void definitions_free(Definitions *d)
                      d->coordinates.items,   d->vectors.items,     d->boxes.items,         d->adaptivities.items,
                      d->databases.items,     d->histories.items,   d->spcs.items,          d->motions.items,
                      d->velocities.items,    d->node_loads.items,  d->segment_loads.items, d->body_loads.items,
-                     d->gravity_parts.items, d->dampings.items,    d->airbags.items,       d->interactions.items};
+                     d->gravity_parts.items, d->dampings.items,    d->airbags.items,       d->interactions.items,
+                     d->porosities.items};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) memory_free(lists[i]);
     memset(d, 0, sizeof *d);
 }

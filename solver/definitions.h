@@ -356,6 +356,13 @@ typedef struct AirbagDefinition {
     Source source, card1, card3, card4, card5, card6, card7, card8;
 } AirbagDefinition;
 
+/* *MAT_ADD_AIRBAG_POROSITY_LEAKAGE: names as those of FabricCard. */
+typedef struct PorosityDefinition {
+    int mid;
+    double flc, fac, ela, fvopt, x0, x1;
+    Source source;
+} PorosityDefinition;
+
 /* *AIRBAG_INTERACTION */
 typedef struct InteractionDefinition {
     int ab1, ab2;
@@ -393,6 +400,7 @@ typedef struct Definitions {
     LIST(DampingDefinition) dampings;
     LIST(AirbagDefinition) airbags;
     LIST(InteractionDefinition) interactions;
+    LIST(PorosityDefinition) porosities;
 } Definitions;
 
 void definitions_free(Definitions *definitions);

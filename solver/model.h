@@ -84,7 +84,9 @@ typedef struct Airbag {
     SurfaceClosure closure; /* caps and report, airbag/surface.h */
     int *part;              /* indices of the parts on its surface (part_count) */
     int part_count;
-    int *node; /* nodes on its surface (node_count), ascending */
+    int surface_parts; /* the rest of part are vents off the surface */
+    int first_part;    /* place of part[0] in State.part_area */
+    int *node;         /* nodes on its surface (node_count), ascending */
     int node_count;
     int pop_part;   /* RBIDP: index of the part whose acceleration may open the exits, -1 none */
     double ambient; /* pressure outside: applied pressure = p - ambient */
@@ -145,6 +147,9 @@ typedef struct Model {
     Airbag *airbags;
     int connection_count;
     GasConnection *connections; /* airbag/connection.h */
+    int bag_part_count;         /* parts of all bags together */
+    int *group_place; /* place of each group in each bag's list of parts, -1 none (group_count x airbag_count) */
+    bool blockage;    /* contact blocks leaking fabric, vents or openings: State.contact_share is there */
     int curve_count;
     Curve *curves;
     int segment_load_count;

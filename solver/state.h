@@ -46,9 +46,13 @@ typedef struct State {
     GasState *gas;       /* (airbag_count), airbag/gas.h */
     double *part_energy; /* internal energy of each part by the stress-work ledger (part_count) */
     double *part_hourglass;
-    double *group_energy; /* energy stored in each group at the last cycle (group_count) */
-    double *cap_volume;   /* under the caps of each bag at the last cycle (airbag_count) [L3] */
-    RigidState *rigid;    /* (rigid_body_count), solver/rigid_body.h */
+    double *group_energy;  /* energy stored in each group at the last cycle (group_count) */
+    double *cap_volume;    /* under the caps of each bag at the last cycle (airbag_count) [L3] */
+    double *part_area;     /* current areas of the bags' parts (bag_part_count) [L2], written by step_bags */
+    double *part_blocked;  /* of it, what contact covers (bag_part_count) [L2] */
+    double *contact_share; /* share of each element's nodes that are in contact, 0 to 1 (element_count if
+                              Model.blockage, else none); written by the contact stage, zero without contact */
+    RigidState *rigid;     /* (rigid_body_count), solver/rigid_body.h */
 } State;
 
 /* Bytes that a State of this model needs. */

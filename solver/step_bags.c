@@ -1,4 +1,6 @@
 /* The gas of all bags from t_{n-1} to t_n on the walls at t_n. */
+#include <math.h>
+
 #include "airbag/gas_pop.h"
 #include "solver/vector3.h"
 #include "solver/workspace.h"
@@ -22,9 +24,56 @@ static void measure_bags(Workspace *w)
             w->bag_area[set->source[k]] += w->set_area[s];
         }
     }
+}
+
+static double element_area(const double *x, const int32_t *node)
+{
+    double u[3], v[3], n[3];
+    for (int i = 0; i < 3; i++) {
+        u[i] = x[3 * (ptrdiff_t)node[2] + i] - x[3 * (ptrdiff_t)node[0] + i];
+        v[i] = x[3 * (ptrdiff_t)node[3] + i] - x[3 * (ptrdiff_t)node[1] + i];
+    }
+    vector3_cross(u, v, n);
+    return 0.5 * sqrt(vector3_dot(n, n));
+}
+
+/* A quarter of a quadrilateral for each node in contact, a third of a triangle (eq. G48). */
+static void measure_blocked(Workspace *w)
+{
+    const Model *m = w->model;
+    for (int p = 0; p < m->part_count; p++) w->part_blocked[p] = 0.0;
+    for (int e = 0; m->blockage && e < m->element_count; e++) {
+        double share = w->state->contact_share[e];
+        if (share > 0.0)
+            w->part_blocked[m->element_part[e]] +=
+                share * element_area(w->state->x, m->element_node + 4 * (ptrdiff_t)e);
+    }
+}
+
+/* Areas of the parts, and of each bag's share of them. Of a part on several bags each has its share of what is blocked.
+ */
+static void measure_parts(Workspace *w)
+{
+    const Model *m = w->model;
+    State *state = w->state;
+    measure_blocked(w);
     for (int p = 0; p < m->part_count; p++) w->part_area[p] = 0.0;
-    for (int g = 0; g < m->group_count; g++)
+    for (int k = 0; k < m->bag_part_count; k++) state->part_area[k] = 0.0;
+    for (int g = 0; g < m->group_count; g++) {
         if (m->groups[g].part >= 0) w->part_area[m->groups[g].part] += w->group_area[g];
+        for (int i = 0; i < m->airbag_count; i++) {
+            int place = m->group_place[(ptrdiff_t)g * m->airbag_count + i];
+            if (place >= 0) state->part_area[m->airbags[i].first_part + place] += w->group_area[g];
+        }
+    }
+    for (int i = 0; i < m->airbag_count; i++) {
+        const Airbag *bag = &m->airbags[i];
+        for (int k = 0; k < bag->part_count; k++) {
+            double whole = w->part_area[bag->part[k]], blocked = w->part_blocked[bag->part[k]];
+            double *area = state->part_area + bag->first_part + k;
+            state->part_blocked[bag->first_part + k] = whole > 0.0 ? blocked * (*area / whole) : 0.0;
+        }
+    }
 }
 
 static GasSide side_of(const Workspace *w, int bag)
@@ -35,7 +84,8 @@ static GasSide side_of(const Workspace *w, int bag)
 
 static double opening_of(const Workspace *w, const GasConnection *c)
 {
-    return c->part >= 0 ? w->part_area[c->part] : 0.0;
+    if (c->part < 0) return 0.0;
+    return w->part_area[c->part] - (c->blocked ? w->part_blocked[c->part] : 0.0);
 }
 
 /* Exchange between connected bags over a span, in order or in the reverse. */
@@ -51,7 +101,13 @@ static void connect_bags(Workspace *w, double time, double span, bool reverse)
 static int advance_bag(Workspace *w, int i, double time, double dt)
 {
     const Airbag *bag = &w->model->airbags[i];
-    GasStep step = {.time = time, .dt = dt, .volume = w->bag_volume[i], .area = w->bag_area[i]};
+    GasStep step = {
+        .time = time,
+        .dt = dt,
+        .volume = w->bag_volume[i],
+        .area = w->bag_area[i],
+        .areas = {w->state->part_area + bag->first_part, w->state->part_blocked + bag->first_part},
+    };
     const char *why = "";
     if (!gas_advance(&bag->gas, w->model->curves, bag->vsca, bag->psca, bag->vini, &step, &w->state->gas[i], &why))
         return 0;
@@ -92,6 +148,7 @@ int step_bags(Workspace *w)
 {
     double dt = w->plan.dt_before, time = w->plan.time - dt;
     measure_bags(w);
+    measure_parts(w);
     if (!(dt > 0.0)) return 0;
     connect_bags(w, time, 0.5 * dt, false);
     for (int i = 0; i < w->model->airbag_count; i++) sense_pop(w, i, time, dt);

@@ -61,7 +61,7 @@ typedef struct Workspace {
     double *bag_pressure, *load_pressure; /* of each pressure set */
     double *set_volume, *set_area;
     double *group_area;                                     /* of each group, of this cycle [L2] */
-    double *part_area;                                      /* of each part [L2] */
+    double *part_area, *part_blocked;                       /* of each part, and what contact covers of it [L2] */
     double *source_pressure;                                /* airbags, then segment loads */
     double *class_gravity, *class_damping, *class_velocity; /* (class_count x 3) */
     double *stagnation;                                     /* SPSF x ambient density by pressure set */

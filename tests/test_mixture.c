@@ -296,12 +296,44 @@ static void test_hard(void **unused)
     }
 }
 
+/* Flat at the start, squeezed to 1 % with and without a vent, a vent that would empty the bag in a step, and turned
+ * inside out: nothing is negative or infinite, or the stop is clear. */
+static void test_hard_volumes(void **unused)
+{
+    (void)unused;
+    for (int k = 0; k < 4; k++) {
+        MixtureCase m;
+        mixture_start(&m, k == 0 ? 0.0 : 0.06);
+        if (k < 2) inject(&m, 1.0, 1.0, 800.0);
+        m.c.gas.vent_coefficient = 1.0;
+        m.c.gas.vent_area = (const double[]){0, 0, 1e-2, 1e4}[k];
+        m.c.gas.overpressure = k == 3 ? 3e5 : 0.0;
+        case_start(&m.c);
+        if (k == 0) assert_true(m.c.state.pressure == 101325.0 && m.c.state.flat == 1.0);
+        for (int i = 1; i <= 100; i++) {
+            double volume = k == 0 ? 0.05 * i * i / 1e4 : k == 3 ? 0.06 : 0.06 * (1.0 - 0.0099 * i);
+            case_step(&m.c, 1e-4, volume);
+            const GasState *s = &m.c.state;
+            assert_true(s->mass > 0.0 && s->temperature > 100.0 && s->temperature < 5e3 && isfinite(s->stiffness));
+            if (k > 0) assert_true(s->pressure >= 101325.0 * (1.0 - 1e-12));
+        }
+        case_check_ledger(&m.c, 1e-12);
+        const char *why = NULL;
+        GasState before = m.c.state;
+        GasStep step = {.time = 0.1, .dt = 1e-4, .volume = -0.01, .area = 0.8};
+        assert_int_equal(gas_advance(&m.c.gas, m.c.curves, 1.0, 1.0, 0.0, &step, &m.c.state, &why), -1);
+        assert_non_null(strstr(why, "negative"));
+        assert_memory_equal(&before, &m.c.state, sizeof before);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_tank),         cmocka_unit_test(test_vent),      cmocka_unit_test(test_helium),
         cmocka_unit_test(test_total_inflow), cmocka_unit_test(test_seventeen), cmocka_unit_test(test_isentropic),
         cmocka_unit_test(test_table),        cmocka_unit_test(test_shomate),   cmocka_unit_test(test_hard),
+        cmocka_unit_test(test_hard_volumes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
