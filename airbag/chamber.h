@@ -26,7 +26,8 @@ typedef struct ChamberModel {
 double chamber_pressure(const GasModel *gas, const Curve *curves, double time, const GasState *state, double mass);
 
 extern const ChamberModel chamber_ideal_gas_simple, chamber_ideal_gas_wang_nefske, chamber_ideal_gas_hybrid,
-    chamber_ideal_gas_chemkin, chamber_pressure_volume, chamber_adiabatic, chamber_load_curve, chamber_linear_fluid;
+    chamber_ideal_gas_chemkin, chamber_pressure_volume, chamber_adiabatic, chamber_load_curve, chamber_linear_fluid,
+    chamber_fluid_and_gas;
 
 /* time_scale of the ideal gas (gas_time_scale.c). */
 double ideal_gas_time_scale(const GasModel *gas, const Curve *curves, const GasState *state, double time);

@@ -12,6 +12,7 @@ static const ChamberModel *const models[GAS_KIND_COUNT] = {
     [GAS_HYBRID] = &chamber_ideal_gas_hybrid,         [GAS_CHEMKIN] = &chamber_ideal_gas_chemkin,
     [GAS_PRESSURE_VOLUME] = &chamber_pressure_volume, [GAS_ADIABATIC] = &chamber_adiabatic,
     [GAS_LOAD_CURVE] = &chamber_load_curve,           [GAS_LINEAR_FLUID] = &chamber_linear_fluid,
+    [GAS_FLUID_AND_GAS] = &chamber_fluid_and_gas,
 };
 
 const char *gas_name(GasKind kind)
@@ -31,6 +32,7 @@ void gas_model_reset(GasModel *gas)
     gas->exit_flow_curve = gas->heat_transfer_curve = gas->inflator.burn_curve = -1;
     gas->pressure_volume = (PressureVolumeLaw){.coefficient_curve = -1, .relative_curve = -1};
     gas->adiabatic = (AdiabaticLaw){.factor = 1.0, .preload_curve = -1};
+    gas->fluid_and_gas = (FluidAndGasLaw){.up = 1.0, .level_curve = -1, .pressure_curve = -1, .gravity_curve = -1};
     gas->load_curve = (LoadCurveLaw){.pressure_curve = -1};
     gas->fluid = (LinearFluidLaw){.bulk_curve = -1,
                                   .inflow_curve = -1,

@@ -25,6 +25,7 @@ typedef enum GasKind {
     GAS_ADIABATIC,
     GAS_LOAD_CURVE,
     GAS_LINEAR_FLUID,
+    GAS_FLUID_AND_GAS,
     GAS_KIND_COUNT
 } GasKind;
 
@@ -88,6 +89,19 @@ typedef struct LinearFluidLaw {
     int limit_curve;                 /* P_LIMLC: over time, in place of it */
 } LinearFluidLaw;
 
+/* *AIRBAG_FLUID_AND_GAS; RHO is the model's density. */
+typedef struct FluidAndGasLaw {
+    int axis;                                      /* |GDIR| - 1 */
+    double up;                                     /* +1 if gravity acts along the negative axis, else -1 */
+    double initial_level, level_step, final_level; /* XWINI, XWADD, XW: coordinates on the axis */
+    int level_curve;                               /* LCXW: over time, in place of them */
+    double pressure, end_time;                     /* P, TEND */
+    int pressure_curve;                            /* LCP: over time, in place of them */
+    double kappa, bulk;                            /* KAPPA, KBM */
+    int gravity_curve;                             /* of *LOAD_BODY along the axis, -1 none */
+    double gravity;                                /* its factor */
+} FluidAndGasLaw;
+
 /* Immutable description; curve members are indices into the model's curves, -1 for none. Units: the deck's.
  * Start from gas_model_reset. Where a constant and a curve are given for the same quantity, a positive constant counts;
  * an exit_flow_curve counts in place of all orifices. */
@@ -134,6 +148,7 @@ typedef struct GasModel {
     AdiabaticLaw adiabatic;
     LoadCurveLaw load_curve;
     LinearFluidLaw fluid;
+    FluidAndGasLaw fluid_and_gas;
 } GasModel;
 
 /* State of one bag; lives in the State buffer, so plain data only. */
@@ -161,6 +176,7 @@ typedef struct GasState {
     double inflator_mass, inflator_energy;  /* in the inflator's chamber */
     double open_time;                       /* at which the exits open; 1e300: nothing has tripped them yet */
     double pop_time;                        /* cumulated beyond the acceleration that opens the exits */
+    double fluid_level, fluid_volume;       /* GAS_FLUID_AND_GAS: coordinate on its axis [L]; times VSCA [L3] */
     double carry[8];                        /* rounding errors of the ledger's sums (gas_ledger.h) */
 } GasState;
 
@@ -172,10 +188,11 @@ void gas_model_reset(GasModel *gas);
 
 /* What the gas sees of the walls over one step. */
 typedef struct GasStep {
-    double time, dt; /* from time to time + dt */
-    double volume;   /* at time + dt, as the mesh has it (VSCA and VINI not yet applied) [L3] */
-    double area;     /* at time + dt [L2] */
-    GasAreas areas;  /* of the bag's parts at time + dt, for holes and leaks */
+    double time, dt;     /* from time to time + dt */
+    double volume;       /* at time + dt, as the mesh has it (VSCA and VINI not yet applied) [L3] */
+    double area;         /* at time + dt [L2] */
+    double fluid_volume; /* GAS_FLUID_AND_GAS: below the level, times VSCA [L3] */
+    GasAreas areas;      /* of the bag's parts at time + dt, for holes and leaks */
 } GasStep;
 
 /* Fills state for the initial volume at time 0: SIMPLE and WANG_NEFSKE start from PE, RO (T0 = PE/(RO (cp - cv)))
@@ -190,6 +207,10 @@ int gas_initialize(const GasModel *gas, const Curve *curves, double vsca, double
  * the guard; a negative one is a failure unless the bag is flat (|V| < BILLOW_GAS_FLAT A^1.5). */
 int gas_advance(const GasModel *gas, const Curve *curves, double vsca, double psca, double vini, const GasStep *step,
                 GasState *state, const char **why);
+
+/* FLUID_AND_GAS while it is filled: sets the level that the card prescribes at a time (step: one more XWADD). False
+ * once the fluid's volume is what is kept, and for all other models. */
+bool gas_fluid_level(const GasModel *gas, const Curve *curves, double time, bool step, GasState *state);
 
 struct GasSide; /* airbag/connection.h */
 

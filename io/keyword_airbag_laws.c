@@ -31,8 +31,21 @@ static const FieldSpec fluid4_fields[] = {
     CARD_INT("P_LIMLC", p_limlc, USED, ID_FUNCTION),
     CARD_INT("NONULL", nonull, USED, NONE),
 };
+static const FieldSpec level3_fields[] = {
+    CARD_REAL("XWINI", xwini, USED, LENGTH),   CARD_REAL("XWADD", xwadd, USED, LENGTH),
+    CARD_REAL("XW", xw, USED, LENGTH),         CARD_REAL("P", p, USED, PRESSURE),
+    CARD_REAL("TEND", tend, USED, TIME),       CARD_REAL("RHO", ro, USED, DENSITY),
+    CARD_INT("LCXW", lcxw, USED, ID_FUNCTION), CARD_INT("LCP", lcp, USED, ID_FUNCTION),
+};
+static const FieldSpec level4_fields[] = {
+    CARD_REAL("GDIR", gdir, USED, NONE),           CARD_INT_OR("NPROJ", nproj, 3, LISTED, NONE),
+    CARD_INT("IDIR", idir, LISTED, NONE),          CARD_INT("IIDIR", iidir, LISTED, NONE),
+    CARD_REAL_OR("KAPPA", kappa, 1.0, USED, NONE), CARD_REAL("KBM", kbm, USED, PRESSURE),
+};
 #undef AT
 
+static const CardSpec level_cards[] = {
+    AIRBAG_CARDS, {"card 3", "", CARD_FIELDS(level3_fields)}, {"card 4", "", CARD_FIELDS(level4_fields)}};
 static const CardSpec volume_cards[] = {AIRBAG_CARDS, {"card 3", "", CARD_FIELDS(volume3_fields)}};
 static const CardSpec adiabatic_cards[] = {AIRBAG_CARDS, {"card 3", "", CARD_FIELDS(adiabatic3_fields)}};
 static const CardSpec curve_cards[] = {AIRBAG_CARDS, {"card 3", "", CARD_FIELDS(curve3_fields)}};
@@ -83,6 +96,26 @@ static void read_linear_fluid(KeywordRead *read)
     airbag_store(read, &bag);
 }
 
+static void read_fluid_and_gas(KeywordRead *read)
+{
+    AirbagDefinition bag = {.model = AIRBAG_FLUID_AND_GAS};
+    if (airbag_read_core(read, &bag)) return;
+    if (keyword_card(read, AIRBAG_CARD_MODEL, &bag, true, &bag.card3)) return;
+    if (keyword_card(read, AIRBAG_CARD_MODEL + 1, &bag, true, &bag.card4)) return;
+    keyword_finish(read);
+    const double axis = bag.gdir < 0.0 ? -bag.gdir : bag.gdir;
+    if (axis != 1.0 && axis != 2.0 && axis != 3.0) {
+        keyword_error(read, bag.card4, "GDIR is %g, but must be 1, 2 or 3, or -1, -2 or -3", bag.gdir);
+        return;
+    }
+    if (bag.lcxw == 0 && bag.xwadd != 0.0 && (bag.xw - bag.xwini) * bag.xwadd < 0.0) {
+        keyword_error(read, bag.card3, "XWADD = %g leads from XWINI = %g away from XW = %g", bag.xwadd, bag.xwini,
+                      bag.xw);
+        return;
+    }
+    airbag_store(read, &bag);
+}
+
 static const KeywordSpec specs[] = {
     {.name = "*AIRBAG_SIMPLE_PRESSURE_VOLUME",
      .options = {"ID"},
@@ -112,6 +145,15 @@ static const KeywordSpec specs[] = {
      .read = read_linear_fluid,
      .remark = "NONULL other than 0 keeps the pressure off parts of *MAT_NULL, which still bound the volume. LCOUTP "
                "is read at the pressure that acts. Flows by LCINT, LCOUTT and LCOUTP are given positive."},
+    {.name = "*AIRBAG_FLUID_AND_GAS",
+     .options = {"ID"},
+     .cards = level_cards,
+     .card_count = 4,
+     .read = read_fluid_and_gas,
+     .remark =
+         "XWINI, XW and LCXW are coordinates on the axis |GDIR|. Gravity is that of *LOAD_BODY on this axis. NPROJ, "
+         "IDIR and IIDIR have no say: the volumes are exact, holes are capped. KBM counts when the fluid fills the "
+         "bag."},
 };
 
 const KeywordFamily keyword_family_airbag_laws = {"Airbags by a law of pressure", specs,

@@ -59,3 +59,34 @@ int airbag_linear_fluid(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     law->limit_curve = airbag_curve(b, bag->p_limlc, "P_LIMLC", bag->card4, &status);
     return status;
 }
+
+int airbag_fluid_and_gas(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+{
+    int status = 0;
+    FluidAndGasLaw *law = &gas->fluid_and_gas;
+    gas->kind = GAS_FLUID_AND_GAS;
+    gas->density = bag->ro;
+    law->axis = (int)(bag->gdir < 0.0 ? -bag->gdir : bag->gdir) - 1;
+    law->up = bag->gdir < 0.0 ? 1.0 : -1.0;
+    law->initial_level = bag->xwini;
+    law->level_step = bag->xwadd;
+    law->final_level = bag->xw;
+    law->level_curve = airbag_curve(b, bag->lcxw, "LCXW", bag->card3, &status);
+    law->pressure = bag->p;
+    law->end_time = bag->tend;
+    law->pressure_curve = airbag_curve(b, bag->lcp, "LCP", bag->card3, &status);
+    law->kappa = bag->kappa;
+    law->bulk = bag->kbm;
+    for (size_t i = 0; i < b->definitions->body_loads.count; i++) {
+        const BodyLoadDefinition *load = &b->definitions->body_loads.items[i];
+        if (load->axis != law->axis || load->cid != 0 || load->lcid <= 0) continue;
+        law->gravity_curve = airbag_curve(b, load->lcid, "LCID", load->source, &status);
+        law->gravity = load->sf;
+    }
+    b->model->has_fluid = true;
+    if (law->gravity_curve < 0 && bag->ro > 0.0)
+        diagnostics_add(b->diagnostics, SEVERITY_WARNING, bag->card4, "*AIRBAG",
+                        "no *LOAD_BODY_%c gives the gravity along GDIR = %g: the fluid has no weight", "XYZ"[law->axis],
+                        bag -> gdir);
+    return status;
+}

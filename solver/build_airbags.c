@@ -155,6 +155,7 @@ static int (*const build_model[])(Builder *, const AirbagDefinition *, GasModel 
     [AIRBAG_ADIABATIC] = airbag_adiabatic,
     [AIRBAG_LOAD_CURVE] = airbag_load_curve,
     [AIRBAG_LINEAR_FLUID] = airbag_linear_fluid,
+    [AIRBAG_FLUID_AND_GAS] = airbag_fluid_and_gas,
 };
 
 static int build_airbag(Builder *b, int number)

@@ -28,5 +28,6 @@ int airbag_pressure_volume(Builder *b, const AirbagDefinition *bag, GasModel *ga
 int airbag_adiabatic(Builder *b, const AirbagDefinition *bag, GasModel *gas);
 int airbag_load_curve(Builder *b, const AirbagDefinition *bag, GasModel *gas);
 int airbag_linear_fluid(Builder *b, const AirbagDefinition *bag, GasModel *gas);
+int airbag_fluid_and_gas(Builder *b, const AirbagDefinition *bag, GasModel *gas);
 
 #endif

@@ -202,11 +202,38 @@ static int place_groups(Builder *b)
     return 0;
 }
 
+/* The surface of a bag of FLUID_AND_GAS, whose volume below a level is measured. */
+static int list_facets(Builder *b, int airbag)
+{
+    Airbag *bag = &b->model->airbags[airbag];
+    bag->facet = builder_alloc(b, 4 * (size_t)b->record_count + 1, sizeof *bag->facet);
+    if (!bag->facet) return -1;
+    for (int i = 0; i < b->record_count; i++) {
+        const ShellRecord *r = &b->records[i];
+        for (int s = 0; s < r->source_count; s++) {
+            if (r->source[s] != airbag) continue;
+            int32_t *facet = bag->facet + 4 * (ptrdiff_t)bag->facet_count++;
+            for (int a = 0; a < 4; a++) facet[a] = r->corner_count == 3 && a == 3 ? r->node[2] : r->node[a];
+            if (r->sign[s] > 0) continue;
+            int32_t second = facet[1];
+            if (r->corner_count == 3) {
+                facet[1] = facet[2];
+                facet[2] = facet[3] = second;
+            } else {
+                facet[1] = facet[3];
+                facet[3] = second;
+            }
+        }
+    }
+    return 0;
+}
+
 int build_areas(Builder *b)
 {
     Model *m = b->model;
     for (int i = 0; i < m->airbag_count; i++) {
         Airbag *bag = &m->airbags[i];
+        if (bag->gas.kind == GAS_FLUID_AND_GAS && list_facets(b, i)) return -1;
         bag->first_part = m->bag_part_count;
         m->bag_part_count += bag->part_count;
         for (int k = 0; k < bag->gas.leak_count; k++) {

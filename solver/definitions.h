@@ -305,6 +305,7 @@ typedef enum AirbagModel {
     AIRBAG_ADIABATIC,
     AIRBAG_LOAD_CURVE,
     AIRBAG_LINEAR_FLUID,
+    AIRBAG_FLUID_AND_GAS,
 } AirbagModel;
 
 /* One gas of *AIRBAG_HYBRID (cards 5.1, 5.2) or *AIRBAG_HYBRID_CHEMKIN (cards 6, 7). */
@@ -353,6 +354,10 @@ typedef struct AirbagDefinition {
     int lcint, lcoutt, lcoutp, lcfit, lcbulk;
     double p_limit; /* LINEAR_FLUID 4 */
     int p_limlc, nonull;
+    double xwini, xwadd, xw, p, tend; /* FLUID_AND_GAS 3, with ro */
+    int lcxw, lcp;
+    double gdir, kappa, kbm; /* FLUID_AND_GAS 4 */
+    int nproj, idir, iidir;
     Source source, card1, card3, card4, card5, card6, card7, card8;
 } AirbagDefinition;
 

@@ -88,7 +88,9 @@ typedef struct Airbag {
     int first_part;    /* place of part[0] in State.part_area */
     int *node;         /* nodes on its surface (node_count), ascending */
     int node_count;
-    int pop_part;   /* RBIDP: index of the part whose acceleration may open the exits, -1 none */
+    int pop_part;    /* RBIDP: index of the part whose acceleration may open the exits, -1 none */
+    int facet_count; /* FLUID_AND_GAS only: its surface, wound outwards (facet_count x 4) */
+    int32_t *facet;
     double ambient; /* pressure outside: applied pressure = p - ambient */
     Source source;
 } Airbag;
@@ -149,6 +151,7 @@ typedef struct Model {
     GasConnection *connections; /* airbag/connection.h */
     int bag_part_count;         /* parts of all bags together */
     int *group_place; /* place of each group in each bag's list of parts, -1 none (group_count x airbag_count) */
+    bool has_fluid;   /* a bag of FLUID_AND_GAS: pressure by height */
     bool blockage;    /* contact blocks leaking fabric, vents or openings: State.contact_share is there */
     int curve_count;
     Curve *curves;

@@ -93,6 +93,7 @@ static int allocate(Workspace *w)
     w->class_velocity = memory_alloc(classes, sizeof(double));
     w->bag_volume = memory_alloc(bags, sizeof(double));
     w->bag_area = memory_alloc(bags, sizeof(double));
+    w->fluid_volume = memory_alloc(bags, sizeof(double));
     w->force = memory_alloc(nodes, sizeof(double));
     w->before = memory_alloc(nodes, sizeof(double));
     w->acceleration = memory_alloc(nodes, sizeof(double));
@@ -110,7 +111,7 @@ static int allocate(Workspace *w)
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
-                      w->newton,        w->group_area,     w->part_area,    w->part_blocked};
+                      w->newton,        w->group_area,     w->part_area,    w->part_blocked,    w->fluid_volume};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
     return 0;
@@ -123,7 +124,7 @@ static void release(Workspace *w)
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
-                      w->newton,        w->group_area,     w->part_area,    w->part_blocked};
+                      w->newton,        w->group_area,     w->part_area,    w->part_blocked,    w->fluid_volume};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
 }
 

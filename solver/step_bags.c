@@ -98,6 +98,20 @@ static void connect_bags(Workspace *w, double time, double span, bool reverse)
     }
 }
 
+/* FLUID_AND_GAS: the volume below the level that the card tells, or the one that was. */
+static void measure_fluid(Workspace *w, double time, bool step)
+{
+    const Model *m = w->model;
+    for (int i = 0; m->has_fluid && i < m->airbag_count; i++)
+        if (gas_fluid_level(&m->airbags[i].gas, m->curves, time, step, &w->state->gas[i]) ||
+            (!step && m->airbags[i].gas.kind == GAS_FLUID_AND_GAS && w->state->clock->cycle == 0))
+            w->fluid_volume[i] = step_fluid_volume(w, i, w->state->gas[i].fluid_level);
+        else
+            w->fluid_volume[i] = w->state->gas[i].fluid_volume;
+    for (int i = 0; m->has_fluid && !step && i < m->airbag_count; i++)
+        w->state->gas[i].fluid_volume = w->fluid_volume[i];
+}
+
 static int advance_bag(Workspace *w, int i, double time, double dt)
 {
     const Airbag *bag = &w->model->airbags[i];
@@ -106,6 +120,7 @@ static int advance_bag(Workspace *w, int i, double time, double dt)
         .dt = dt,
         .volume = w->bag_volume[i],
         .area = w->bag_area[i],
+        .fluid_volume = w->model->has_fluid ? w->fluid_volume[i] : 0.0,
         .areas = {w->state->part_area + bag->first_part, w->state->part_blocked + bag->first_part},
     };
     const char *why = "";
@@ -149,12 +164,15 @@ int step_bags(Workspace *w)
     double dt = w->plan.dt_before, time = w->plan.time - dt;
     measure_bags(w);
     measure_parts(w);
+    measure_fluid(w, w->plan.time, dt > 0.0);
     if (!(dt > 0.0)) return 0;
     connect_bags(w, time, 0.5 * dt, false);
     for (int i = 0; i < w->model->airbag_count; i++) sense_pop(w, i, time, dt);
     for (int i = 0; i < w->model->airbag_count; i++)
         if (advance_bag(w, i, time, dt)) return -1;
     connect_bags(w, time + 0.5 * dt, 0.5 * dt, true);
+    for (int i = 0; w->model->has_fluid && i < w->model->airbag_count; i++)
+        if (w->model->airbags[i].gas.kind == GAS_FLUID_AND_GAS) step_fluid_settle(w, i);
     return 0;
 }
 

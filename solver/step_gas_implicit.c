@@ -15,6 +15,7 @@ static void add_node(const Workspace *w, int node, GasPass *bags)
         const double *force = w->rows + ROW_SIZE * (ptrdiff_t)m->node_row[k], *share = force + ROW_AREA;
         int set = m->row_set[m->node_row[k]];
         double pressure = set < 0 ? 0.0 : w->bag_pressure[set] + w->load_pressure[set];
+        if (m->has_fluid && set >= 0) pressure += step_hydrostatic(w, set, w->state->x + 3 * (ptrdiff_t)node);
         for (int i = 0; i < 3; i++) f[i] += force[i] + pressure * share[i];
     }
     for (int b = 0; b < m->airbag_count; b++) {

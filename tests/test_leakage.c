@@ -32,7 +32,8 @@ static void run_leak(LeakCase *l, double end, double dt)
     for (int i = 0; i < count; i++) {
         const char *why = NULL;
         double next = begin + (end - begin) * (i + 1) / count;
-        GasStep step = {l->c.time, next - l->c.time, 0.06, 0.8, {&l->area, &l->blocked}};
+        GasStep step = {
+            .time = l->c.time, .dt = next - l->c.time, .volume = 0.06, .area = 0.8, .areas = {&l->area, &l->blocked}};
         assert_int_equal(gas_advance(&l->c.gas, l->c.curves, 1.0, 1.0, 0.0, &step, &l->c.state, &why), 0);
         l->c.time = next;
     }
