@@ -194,6 +194,10 @@ static void read_chemkin(KeywordRead *read)
                       bag.data);
         return;
     }
+    if (bag.a23 < 0.0) {
+        keyword_error(read, bag.card5, "A23 is %g, but must be the area of the vent", bag.a23);
+        return;
+    }
     for (int i = 0; i < bag.ngas; i++)
         if (read_chemkin_gas(read, &bag, &bag.gases[i])) return;
     keyword_finish(read);

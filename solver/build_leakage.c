@@ -60,6 +60,14 @@ static bool find_porosity(const Builder *b, int part, PorosityDefinition *found,
     return true;
 }
 
+/* Whether an earlier part of the bag has the same material, so that a warning would be said twice. */
+static bool said_before(const Builder *b, const Airbag *bag, int k)
+{
+    for (int i = 0; i < k; i++)
+        if (b->parts[bag->part[i]].material == b->parts[bag->part[k]].material) return true;
+    return false;
+}
+
 static int fill_leak(Builder *b, const PorosityDefinition *p, GasLeak *leak)
 {
     int status = 0;
@@ -110,7 +118,7 @@ static int build_leaks(Builder *b, const AirbagDefinition *d, Airbag *bag)
         leak.option = p.fvopt > 0.0 ? (int)p.fvopt : (int)d->opt;
         if (leaks(&leak))
             gas->leaks[gas->leak_count++] = leak;
-        else if (p.flc != 0.0 || p.fvopt > 0.0)
+        else if ((p.flc != 0.0 || p.fvopt > 0.0) && !said_before(b, bag, k))
             diagnostics_add(
                 b->diagnostics, SEVERITY_WARNING, p.source, "*MAT_FABRIC",
                 "material %d does not leak: FLC and FAC must both differ from 0 (1 where the pressure has no "
@@ -132,7 +140,8 @@ static void warn_unused(Builder *b, const AirbagDefinition *d, const Airbag *bag
     for (int k = 0; k < bag->surface_parts; k++) {
         PorosityDefinition p;
         bool reference;
-        if (!find_porosity(b, bag->part[k], &p, &reference) || (p.flc == 0.0 && p.fvopt == 0.0 && p.x0 == 0.0))
+        if (said_before(b, bag, k) || !find_porosity(b, bag->part[k], &p, &reference) ||
+            (p.flc == 0.0 && p.fvopt == 0.0 && p.x0 == 0.0))
             continue;
         diagnostics_add(
             b->diagnostics, SEVERITY_WARNING, p.source, "*MAT_FABRIC",

@@ -218,7 +218,8 @@ static void refusals(void **state)
         {"*AIRBAG_HYBRID\n1,1\n300,1e5,1.2,8.3\n0\n0,0,1\n1,0,0,0.029,1,28\n0\n", "LCIDT must be"},
         {"*AIRBAG_HYBRID_CHEMKIN\n1,1\n0,0,1,4,300,1e5,8.3\n0\n0\nN2,0.028,0,1,1\n", "DATA is 4"},
         {"*AIRBAG_HYBRID_CHEMKIN\n1,1\n0,0,1,2,300,1e5,8.3\n0\n0\nXE,0.028,0,1,1\n", "CHNAME XE"},
-        {"*AIRBAG_HYBRID_CHEMKIN\n1,1\n0,0,1,2,300,1e5,8.3\n0\n0\nN2,0,0,1,1\n", "MW must"}};
+        {"*AIRBAG_HYBRID_CHEMKIN\n1,1\n0,0,1,2,300,1e5,8.3\n0\n0\nN2,0,0,1,1\n", "MW must"},
+        {"*AIRBAG_HYBRID_CHEMKIN\n1,1\n0,0,1,2,300,1e5,8.3\n0\n1,-2\nN2,0.028,0,1,1\n", "A23 is -2"}};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         Scene scene = {0};
         verify_begin_box(&scene, (const double[3]){1, 1, 1}, 1, 7, 0.01);
