@@ -70,6 +70,6 @@ int build_output(Builder *builder);            /* termination, step control, out
 int build_mass_scaling(Builder *builder);      /* DT2MS */
 int build_renumber(Builder *builder);          /* node and element order for locality */
 int build_groups(Builder *builder);            /* blocks, kernel constants */
-int build_rows(Builder *builder);          /* segments and rows of corner sums */
+int build_rows(Builder *builder);              /* segments and rows of corner sums */
 
 #endif
