@@ -135,6 +135,13 @@ void keyword_check_duplicates(Definitions *definitions, Diagnostics *diagnostics
     const RecordList lists[] = {
         RECORDS(nodes, NodeDefinition, "*NODE", "node", -1),
         RECORDS(shells, ShellDefinition, "*ELEMENT_SHELL", "shell", -1),
+        RECORDS(solids, SolidDefinition, "*ELEMENT_SOLID", "solid", -1),
+        RECORDS(solid_sections, SectionSolidDefinition, "*SECTION_SOLID", "section", -1),
+        RECORDS(beams, BeamDefinition, "*ELEMENT_BEAM", "beam", -1),
+        RECORDS(beam_sections, SectionBeamDefinition, "*SECTION_BEAM", "section", -1),
+        RECORDS(discretes, DiscreteDefinition, "*ELEMENT_DISCRETE", "discrete element", -1),
+        RECORDS(discrete_sections, SectionDiscreteDefinition, "*SECTION_DISCRETE", "section", -1),
+        RECORDS(nodal_bodies, NodalRigidBodyDefinition, "*CONSTRAINED_NODAL_RIGID_BODY", "nodal rigid body", -1),
         RECORDS(parts, PartDefinition, "*PART", "part", -1),
         RECORDS(sections, SectionShellDefinition, "*SECTION_SHELL", "section", -1),
         RECORDS(materials, MaterialDefinition, "*MAT", "material", -1),
@@ -148,6 +155,7 @@ void keyword_check_duplicates(Definitions *definitions, Diagnostics *diagnostics
         RECORDS(vectors, VectorDefinition, "*DEFINE_VECTOR", "vector", -1),
         RECORDS(boxes, BoxDefinition, "*DEFINE_BOX", "box", -1),
         RECORDS(airbags, AirbagDefinition, "*AIRBAG", "airbag", -1),
+        RECORDS(walls, RigidWallDefinition, "*RIGIDWALL", "rigid wall", -1),
     };
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) check_list(&lists[i], diagnostics);
 }

@@ -14,15 +14,19 @@ static const FieldSpec part_fields[] = {
 static const CardSpec part_cards[] = {
     {"heading", "one for each part", CARD_FIELDS(part_heading_fields)},
     {"card 1", "one for each part", CARD_FIELDS(part_fields)},
+    KEYWORD_INERTIA_CARDS,
 };
+enum { PART_INERTIA };
 
 static void read_part(KeywordRead *read)
 {
-    while (keyword_more(read)) {
+    while (keyword_more(read) && !read->out_of_memory) {
         PartDefinition card = {0};
         card_text(read->cards, card.title, sizeof card.title);
-        if (keyword_card(read, 1, &card, true, &card.source)) continue;
-        if (!keyword_check_id(read, card.id, "PID", card.source)) continue;
+        int status = keyword_card(read, 1, &card, true, &card.source);
+        card.has_inertia = keyword_option(read, PART_INERTIA);
+        if (card.has_inertia && keyword_read_inertia(read, &card.inertia)) status = -1;
+        if (status || !keyword_check_id(read, card.id, "PID", card.source)) continue;
         PartDefinition *part = KEYWORD_APPEND(read, read->definitions->parts);
         if (!part) return;
         *part = card;
@@ -124,10 +128,11 @@ static void read_hourglass(KeywordRead *read)
 
 static const KeywordSpec specs[] = {
     {.name = "*PART",
+     .options = {"INERTIA"},
      .cards = part_cards,
-     .card_count = 2,
+     .card_count = 6,
      .read = read_part,
-     .remark = "The options INERTIA, CONTACT, REPOSITION and others are refused."},
+     .remark = "INERTIA is for rigid parts. The options CONTACT, REPOSITION and others are refused."},
     {.name = "*SECTION_SHELL",
      .options = {"TITLE"},
      .cards = section_cards,

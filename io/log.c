@@ -62,6 +62,7 @@ void log_write_deck(Log *log, const Definitions *definitions, const Model *model
     report_write_parts(model, file);
     report_write_airbags(model, state, file);
     report_write_conditions(model, file);
+    report_write_walls(model, file);
     report_write_plan(model, plan, file);
     report_write_steps(model, LISTED_STEPS, file);
     report_write_messages(log->diagnostics, file);

@@ -1,4 +1,5 @@
-/* rbdout: motion of the centres of mass of all rigid parts over time; fixed ones rest. */
+/* rbdout: motion of the centres of mass of all rigid parts over time, fixed ones at rest, then of nodal rigid bodies.
+ */
 #include <inttypes.h>
 #include <math.h>
 
@@ -33,14 +34,10 @@ static void rotation_vector(const double q[4], double rotation[3])
 }
 
 /* RigidState's own position is already that of the coming cycle; its output is that of t_n. */
-static void gather_motion(const Results *results, const Model *model, const State *state, int p, RigidMotion *motion)
+static void body_motion(const Model *model, const State *state, int b, RigidMotion *motion)
 {
-    const Part *part = &model->parts[p];
-    *motion = (RigidMotion){.axes = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
-    for (int c = 0; c < 3; c++) motion->x[c] = results->part_centre[3 * p + c];
-    if (part->rigid_body < 0) return;
-    const RigidBody *body = &model->rigid_bodies[part->rigid_body];
-    const RigidState *rigid = &state->rigid[part->rigid_body];
+    const RigidBody *body = &model->rigid_bodies[b];
+    const RigidState *rigid = &state->rigid[b];
     const RigidOutput *output = &rigid->output;
     for (int c = 0; c < 3; c++) {
         motion->x[c] = output->x[c];
@@ -97,33 +94,48 @@ static void write_ascii(FILE *ascii, int id, const RigidMotion *motion)
     write_six_local(ascii, " accelerations:  ", axes, motion->a, motion->alpha);
 }
 
-static bool has_rigid_part(const Model *model)
+static bool has_rigid_body(const Model *model)
 {
     for (int p = 0; p < model->part_count; p++)
         if (model->parts[p].material_kind == MATERIAL_RIGID) return true;
+    for (int b = 0; b < model->rigid_body_count; b++)
+        if (model->rigid_bodies[b].nodal) return true;
     return false;
+}
+
+static void write_row(History *history, double time, int id, const RigidMotion *motion)
+{
+    const double *const columns[3] = {motion->x, motion->v, motion->a};
+    fprintf(history->csv.stream, "%.17g,%d", time, id);
+    for (int j = 0; j < 9; j++) fprintf(history->csv.stream, ",%.17g", columns[j / 3][j % 3]);
+    fprintf(history->csv.stream, "\n");
+    write_ascii(history->ascii.stream, id, motion);
 }
 
 int results_write_rbdout(Results *results, const Model *model, const State *state, const StepView *view)
 {
+    static const RigidMotion rest = {.axes = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
     History *history = &results->history[HISTORY_RBDOUT];
     double time = state->clock->time;
     (void)view;
-    if (!has_rigid_part(model)) return 0;
+    if (!has_rigid_body(model)) return 0;
     int go = history_begin(history, time, model->title);
     if (go <= 0) return go;
     fprintf(history->ascii.stream,
             "1\n\n  r i g i d   b o d y   m o t i o n   a t  cycle=%8" PRId64 "    time=%15.6E\n", state->clock->cycle,
             time);
     for (int p = 0; p < model->part_count; p++) {
-        RigidMotion motion;
+        RigidMotion motion = rest;
         if (model->parts[p].material_kind != MATERIAL_RIGID) continue;
-        gather_motion(results, model, state, p, &motion);
-        const double *const columns[3] = {motion.x, motion.v, motion.a};
-        fprintf(history->csv.stream, "%.17g,%d", time, model->parts[p].id);
-        for (int j = 0; j < 9; j++) fprintf(history->csv.stream, ",%.17g", columns[j / 3][j % 3]);
-        fprintf(history->csv.stream, "\n");
-        write_ascii(history->ascii.stream, model->parts[p].id, &motion);
+        for (int c = 0; c < 3; c++) motion.x[c] = results->part_centre[3 * p + c];
+        if (model->parts[p].rigid_body >= 0) body_motion(model, state, model->parts[p].rigid_body, &motion);
+        write_row(history, time, model->parts[p].id, &motion);
+    }
+    for (int b = 0; b < model->rigid_body_count; b++) {
+        RigidMotion motion = rest;
+        if (!model->rigid_bodies[b].nodal) continue;
+        body_motion(model, state, b, &motion);
+        write_row(history, time, model->rigid_bodies[b].part_id, &motion);
     }
     return history_commit(history, time);
 }

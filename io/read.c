@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "io/keyword_table.h"
+#include "solver/solid_faces.h"
 
 /* Keywords that others refer to by id: without them "is not defined" would be an echo. */
 static bool is_referred_to(const char *keyword)
@@ -64,6 +65,7 @@ static void read_blocks(const DeckText *deck, Definitions *definitions, Diagnost
         if (!read_block(deck, &deck->blocks.items[i], definitions, diagnostics)) return;
     keyword_check_duplicates(definitions, diagnostics);
     keyword_check_references(definitions, diagnostics);
+    solid_faces_add(definitions, diagnostics);
 }
 
 static int read_deck(const char *name, const char *text, size_t length, Definitions *definitions,

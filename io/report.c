@@ -22,9 +22,13 @@ void report_write_keywords(const Definitions *d, FILE *stream)
         size_t count;
     } counts[] = {
         {"nodes (*NODE)", d->nodes.count},
-        {"shells (*ELEMENT_SHELL)", d->shells.count},
+        {"shells (*ELEMENT_SHELL)", d->shells.count - d->face_count},
+        {"solids (*ELEMENT_SOLID)", d->solids.count},
         {"parts (*PART)", d->parts.count},
-        {"sections (*SECTION_SHELL)", d->sections.count},
+        {"beams (*ELEMENT_BEAM)", d->beams.count},
+        {"discrete elements (*ELEMENT_DISCRETE)", d->discretes.count},
+        {"sections (*SECTION)",
+         d->sections.count + d->solid_sections.count + d->beam_sections.count + d->discrete_sections.count},
         {"materials (*MAT)", d->materials.count},
         {"hourglass definitions (*HOURGLASS)", d->hourglasses.count},
         {"sets (*SET)", d->sets.count},
@@ -44,6 +48,10 @@ void report_write_keywords(const Definitions *d, FILE *stream)
         {"gravity on parts (*LOAD_GRAVITY_PART)", d->gravity_parts.count},
         {"dampings (*DAMPING)", d->dampings.count},
         {"airbags (*AIRBAG)", d->airbags.count},
+        {"rigid walls (*RIGIDWALL)", d->walls.count},
+        {"joined rigid parts (*CONSTRAINED_RIGID_BODIES)", d->merges.count},
+        {"extra nodes of rigid parts (*CONSTRAINED_EXTRA_NODES)", d->extra_nodes.count},
+        {"nodal rigid bodies (*CONSTRAINED_NODAL_RIGID_BODY)", d->nodal_bodies.count},
     };
     write_heading("Keywords", stream);
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
@@ -61,6 +69,10 @@ static const char *material_name(int kind)
         return "null";
     case MATERIAL_RIGID:
         return "rigid";
+    case MATERIAL_SPRING:
+        return "spring";
+    case MATERIAL_CABLE:
+        return "cable";
     default:
         return "?";
     }
@@ -70,9 +82,9 @@ static void write_bodies(const Model *model, FILE *stream)
 {
     for (int i = 0; i < model->rigid_body_count && i < LISTED_BODIES; i++) {
         const RigidBody *body = &model->rigid_bodies[i];
-        fprintf(stream, "  moving rigid part %d: mass %.6g, centre (%.6g, %.6g, %.6g), inertia %.6g %.6g %.6g\n",
-                body->part_id, body->mass, body->centre[0], body->centre[1], body->centre[2], body->inertia[0],
-                body->inertia[1], body->inertia[2]);
+        fprintf(stream, "  moving rigid %s %d: mass %.6g, centre (%.6g, %.6g, %.6g), inertia %.6g %.6g %.6g\n",
+                body->nodal ? "body" : "part", body->part_id, body->mass, body->centre[0], body->centre[1],
+                body->centre[2], body->inertia[0], body->inertia[1], body->inertia[2]);
     }
     if (model->rigid_body_count > LISTED_BODIES)
         fprintf(stream, "  and %d more moving rigid parts\n", model->rigid_body_count - LISTED_BODIES);
@@ -168,6 +180,7 @@ void report_write_conditions(const Model *model, FILE *stream)
         {"segment loads", model->segment_load_count},
         {"classes of body force and damping", model->loads.class_count > 1 ? model->loads.class_count - 1 : 0},
         {"moving rigid bodies", model->rigid_body_count},
+        {"springs, cables and trusses", model->link_count},
     };
     bool any = false;
     write_heading("Supports and loads", stream);
@@ -177,6 +190,37 @@ void report_write_conditions(const Model *model, FILE *stream)
         any = true;
     }
     if (!any) fprintf(stream, "  none\n");
+}
+
+static const char *wall_shape(const RigidWall *wall)
+{
+    switch (wall->shape) {
+    case WALL_SPHERE:
+        return "sphere";
+    case WALL_CYLINDER:
+        return "cylinder";
+    case WALL_PRISM:
+        return "prism";
+    case WALL_PLANE:
+        break;
+    }
+    return wall->length[0] > 0.0 || wall->length[1] > 0.0 ? "finite plane" : "plane";
+}
+
+void report_write_walls(const Model *model, FILE *stream)
+{
+    if (model->wall_count == 0) return;
+    write_heading("Rigid walls", stream);
+    for (int i = 0; i < model->wall_count; i++) {
+        const RigidWall *wall = &model->walls[i];
+        const double *o = wall->origin, *n = wall->axes + 6;
+        fprintf(stream, "  wall %d%s%s: %s at (%.6g, %.6g, %.6g), n (%.6g, %.6g, %.6g)%s\n", wall->id,
+                wall->title[0] ? " " : "", wall->title, wall_shape(wall), o[0], o[1], o[2], n[0], n[1], n[2],
+                wall->mass > 0.0   ? ", moved by its nodes"
+                : wall->curve >= 0 ? ", driven by a curve"
+                                   : "");
+        fprintf(stream, "    %d nodes, %d of them start behind the wall\n", wall->node_count, wall->behind_count);
+    }
 }
 
 void report_write_steps(const Model *model, int limit, FILE *stream)
@@ -211,6 +255,7 @@ void report_write_plan(const Model *model, const OutputPlan *plan, FILE *stream)
         {"abstat", plan->abstat, model->airbag_count > 0},
         {"nodout", plan->nodout, plan->history_count > 0},
         {"rbdout", plan->rbdout, model->rigid_body_count > 0},
+        {"rwforc", plan->rwforc, model->wall_count > 0},
     };
     write_heading("End and output", stream);
     fprintf(stream, "  end time %.9g", model->end_time);

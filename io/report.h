@@ -21,6 +21,9 @@ void report_write_airbags(const Model *model, const State *state, FILE *stream);
 /* Supports, prescribed motion, loads, hanging nodes. */
 void report_write_conditions(const Model *model, FILE *stream);
 
+/* Rigid walls with the numbers of their nodes; nothing without one. */
+void report_write_walls(const Model *model, FILE *stream);
+
 /* The stable step of the deck: the limit smallest elements in their reference state, mass added by DT2MS. */
 void report_write_steps(const Model *model, int limit, FILE *stream);
 

@@ -18,10 +18,11 @@ static const HistoryFormat *const formats[HISTORY_COUNT] = {
     [HISTORY_GLSTAT] = &results_glstat_format, [HISTORY_ABSTAT] = &results_abstat_format,
     [HISTORY_NODOUT] = &results_nodout_format, [HISTORY_ABSTAT_PARTS] = &results_abstat_parts_format,
     [HISTORY_RBDOUT] = &results_rbdout_format, [HISTORY_MATSUM] = &results_matsum_format,
+    [HISTORY_RWFORC] = &results_rwforc_format,
 };
 
 /* Files that some model may have and this one does not: removed with the others when a folder is used anew. */
-static const char *const other_names[] = {"rcforc.csv", "rcforc", "rwforc.csv", "rwforc"};
+static const char *const other_names[] = {"rcforc.csv", "rcforc"};
 
 static char *join_path(const char *dir, const char *name)
 {
@@ -120,6 +121,13 @@ static void find_part_centres(const Model *model, double *centre)
             for (int c = 0; c < 3; c++)
                 centre[3 * (ptrdiff_t)p + c] += share * model->initial[3 * (ptrdiff_t)node[k] + c];
     }
+    for (int s = 0; s < model->solid_count; s++) {
+        const Solid *solid = &model->solids[s];
+        for (int k = 0; k < 8; k++)
+            for (int c = 0; c < 3; c++)
+                centre[3 * (ptrdiff_t)solid->part + c] += solid->share[k] / model->parts[solid->part].mass *
+                                                          model->initial[3 * (ptrdiff_t)solid->node[k] + c];
+    }
 }
 
 static int allocate_results(Results *results, const char *dir, const Model *model)
@@ -163,14 +171,8 @@ int results_write_state(Results *results, const Model *model, const State *state
     return vtkhdf_state_count(results->grid) > before ? xdmf_add_state(results->xdmf, before, time) : 0;
 }
 
-/* The model has no contact interfaces and no rigid walls yet, so these files have no rows. */
+/* The model has no contact interfaces yet, so this file has no rows. */
 int results_write_rcforc(Results *results, const Model *model, const State *state, const StepView *view)
-{
-    (void)results, (void)model, (void)state, (void)view;
-    return 0;
-}
-
-int results_write_rwforc(Results *results, const Model *model, const State *state, const StepView *view)
 {
     (void)results, (void)model, (void)state, (void)view;
     return 0;

@@ -14,6 +14,7 @@ typedef enum HistoryKind {
     HISTORY_NODOUT,
     HISTORY_RBDOUT,
     HISTORY_MATSUM,
+    HISTORY_RWFORC,
     HISTORY_COUNT
 } HistoryKind;
 
@@ -29,6 +30,6 @@ struct Results {
 
 /* Formats of the histories, defined beside their writers. */
 extern const HistoryFormat results_glstat_format, results_abstat_format, results_abstat_parts_format,
-    results_nodout_format, results_rbdout_format, results_matsum_format;
+    results_nodout_format, results_rbdout_format, results_matsum_format, results_rwforc_format;
 
 #endif

@@ -36,6 +36,9 @@ static void lump_masses(Builder *b)
         const ShellRecord *r = &b->records[i];
         for (int a = 0; a < r->corner_count; a++) b->mass[r->node[a]] += r->mass / r->corner_count;
     }
+    for (int i = 0; i < b->model->solid_count; i++)
+        for (int a = 0; a < 8; a++) b->mass[b->model->solids[i].node[a]] += b->model->solids[i].share[a];
+    for (int n = 0; b->link_mass && n < b->node_count; n++) b->mass[n] += b->link_mass[n];
 }
 
 /* Supports, loads, rigid bodies. */
@@ -113,7 +116,7 @@ static void builder_free(Builder *b)
     for (int i = 0; b->closures && i < b->model->airbag_count; i++) surface_closure_free(&b->closures[i]);
     motion_free(&b->motion);
     deck_index_free(&b->index);
-    void *blocks[] = {b->x, b->mass, b->records, b->parts, b->closures, b->order};
+    void *blocks[] = {b->x, b->mass, b->records, b->parts, b->closures, b->order, b->wall_node, b->link_mass};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
 }
 
@@ -126,21 +129,28 @@ static int run_stages(Builder *b)
     if (build_curves(b)) status = -1;
     if (build_parts(b) | (build_output(b) ? -1 : 0)) status = -1;
     if (status) {
-        /* the surfaces' and motions' messages would only repeat what is missing; shells still have their own */
-        if (b->parts && b->model->parts) build_shells(b);
+        /* the surfaces' and motions' messages would only repeat what is missing; elements still have their own */
+        if (b->parts && b->model->parts) {
+            build_shells(b);
+            build_solids(b);
+            build_links(b);
+        }
         return -1;
     }
-    if (build_shells(b)) return -1;
+    status = build_shells(b);
+    if (build_solids(b)) status = -1;
+    if (build_links(b) || status) return -1;
     errors = b->diagnostics->errors;
     if (build_surfaces(b)) status = -1;
     if (status && b->diagnostics->errors == errors) return -1;
     if (build_airbags(b) || build_connections(b)) status = -1;
+    if (build_walls(b)) status = -1;
     if (build_mass_scaling(b)) status = -1;
     lump_masses(b);
     if (build_movement(b)) status = -1;
     if (status) return -1;
     if (build_pressure_sets(b)) return -1;
-    if (build_renumber(b) || build_groups(b) || build_areas(b)) return -1;
+    if (build_renumber(b) || build_groups(b) || build_areas(b) || build_wall_nodes(b) || build_link_ends(b)) return -1;
     set_origin(b);
     b->model->caps_push_rim = b->options->caps_push_rim;
     return take_motion(b);

@@ -300,12 +300,48 @@ static int class_airbags(const MotionInput *input, Motion *motion, Recipes *reci
     return 0;
 }
 
-static void class_bodies(const MotionInput *input, Motion *motion, const Recipes *recipes)
+/* A body of several parts or of a node set: the mean of its nodes' classes by their mass. */
+static int32_t mixed_body_class(const MotionInput *input, Recipes *recipes, const Shares *shares, const RigidBody *body,
+                                bool *fits)
 {
-    for (size_t p = 0; p < input->index->definitions->parts.count; p++) {
-        if (motion->part_body[p] >= 0)
-            motion->rigid_bodies[motion->part_body[p]].body_class = recipes->class_of_part[p];
+    BodyClass mixed;
+    double total = 0;
+    body_class_clear(&mixed);
+    for (int k = 0; k < body->node_count; k++) total += input->node_mass[body->node[k]];
+    for (size_t c = 0; c <= shares->class_count && total > 0; c++) {
+        double weight = 0; /* the last round is for nodes without shells */
+        for (int k = 0; k < body->node_count; k++) {
+            int32_t node = body->node[k], only = shares->only[node];
+            double mass = input->node_mass[node], sum = 0;
+            if (only == (c < shares->class_count ? (int32_t)c : -1)) weight += mass;
+            if (only != -2 || c == shares->class_count) continue;
+            const double *row = shares->weights + (size_t)shares->row[node] * shares->class_count;
+            for (size_t i = 0; i < shares->class_count; i++) sum += row[i];
+            if (sum > 0) weight += mass * row[c] / sum;
+        }
+        if (!(weight > 0)) continue;
+        const BodyClass *class = c < shares->class_count ? &recipes->table.items[c] : &recipes->everywhere;
+        if (!body_class_add(&mixed, class, weight / total)) *fits = false;
     }
+    return class_table_find(&recipes->table, &mixed);
+}
+
+static int class_bodies(const MotionInput *input, Motion *motion, Recipes *recipes, const Shares *shares,
+                        Diagnostics *diagnostics)
+{
+    bool fits = true;
+    for (int b = 0; b < motion->rigid_body_count; b++) {
+        RigidBody *body = &motion->rigid_bodies[b];
+        int32_t part = body->nodal ? -1 : id_map_find(&input->index->parts, body->part_id);
+        int32_t found = part >= 0 && !(body->merged && input->node_mass)
+                            ? recipes->class_of_part[part]
+                            : mixed_body_class(input, recipes, shares, body, &fits);
+        if (found < 0) return motion_no_memory(KEYWORD, diagnostics);
+        body->body_class = found;
+    }
+    if (fits) return 0;
+    report_full(KEYWORD, BILLOW_NO_SOURCE, diagnostics);
+    return -1;
 }
 
 static bool anything_acts(const MotionInput *input)
@@ -347,7 +383,7 @@ int build_body_classes(const MotionInput *input, Motion *motion, Diagnostics *di
         if (status == 0) status = class_parts(input, &recipes, diagnostics);
         if (status == 0) status = class_nodes(input, motion, &recipes, &shares, diagnostics);
         if (status == 0) status = class_airbags(input, motion, &recipes, diagnostics);
-        if (status == 0) class_bodies(input, motion, &recipes);
+        if (status == 0) status = class_bodies(input, motion, &recipes, &shares, diagnostics);
     }
     motion->loads.classes = recipes.table.items;
     motion->loads.class_count = (int)recipes.table.count;

@@ -16,12 +16,16 @@ static int weigh_bodies(const MotionInput *input, const double *mass, Motion *mo
         RigidBody *body = &motion->rigid_bodies[b];
         int result = rigid_body_build(body, input->x, mass);
         if (result < 0) return motion_no_memory("*MAT_RIGID", diagnostics);
-        if (result == 0) continue;
+        int given = rigid_inertia_apply(input, body, diagnostics);
+        if (given < 0) status = -1;
+        if (result == 0 || given != 0) continue;
         int32_t part = id_map_find(&input->index->parts, body->part_id);
-        diagnostics_add(diagnostics, SEVERITY_ERROR, input->index->definitions->parts.items[part].source, "*PART",
-                        "rigid part %d has no mass and cannot move; give its material a density RO and its section a "
-                        "thickness",
-                        body->part_id);
+        Source source = BILLOW_NO_SOURCE;
+        if (part >= 0) source = input->index->definitions->parts.items[part].source;
+        diagnostics_add(diagnostics, SEVERITY_ERROR, source, part >= 0 ? "*PART" : "*CONSTRAINED_NODAL_RIGID_BODY",
+                        "rigid %s %d has no mass and cannot move; give its material a density RO and its section a "
+                        "thickness, or use the option INERTIA",
+                        part >= 0 ? "part" : "body", body->part_id);
         status = -1;
     }
     return status;
@@ -29,6 +33,8 @@ static int weigh_bodies(const MotionInput *input, const double *mass, Motion *mo
 
 int build_motion(const MotionInput *input, double *mass, Motion *motion, Diagnostics *diagnostics)
 {
+    MotionInput weighed = *input;
+    weighed.node_mass = mass;
     int status = build_rigid_bodies(input, motion, diagnostics);
     if (build_constraints(input, motion, diagnostics)) status = -1;
     /* Velocities need sound bodies; loads need sound constraints for the shares of hanging nodes. */
@@ -37,7 +43,7 @@ int build_motion(const MotionInput *input, double *mass, Motion *motion, Diagnos
         status = weigh_bodies(input, mass, motion, diagnostics);
     }
     if (build_velocities(input, mass, motion, diagnostics)) status = -1;
-    if (build_loads(input, motion, diagnostics)) status = -1;
+    if (build_loads(&weighed, motion, diagnostics)) status = -1;
     return status;
 }
 

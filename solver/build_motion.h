@@ -26,6 +26,7 @@ typedef struct MotionInput {
     const DeckIndex *index;
     const double *x;          /* initial positions (node count x 3) [L] */
     const double *shell_mass; /* of each shell in deck order [M]; weights of part-boundary nodes */
+    const double *node_mass;  /* lumped (node count) [M]; set by build_motion */
     int airbag_count;
     const AirbagNodes *airbags; /* (airbag_count), index = the model's airbag index */
 } MotionInput;

@@ -77,6 +77,8 @@ enum { CLASS_FREE, CLASS_SPECIAL, CLASS_FIXED };
 static void classify_nodes(const Builder *b, const Adjacency *a, unsigned char *class)
 {
     motion_mark_special(&b->motion, class);
+    for (int i = 0; i < b->model->link_count; i++)
+        for (int end = 0; end < 2; end++) class[b->model->links[i].node[end]] = CLASS_SPECIAL;
     for (int i = 0; b->options->caps_push_rim && i < b->model->airbag_count; i++)
         for (int k = 0; k < b->closures[i].cap_count; k++)
             for (int c = 0; c < b->closures[i].caps[k].count; c++)
@@ -150,6 +152,10 @@ static void renumber_lists(Builder *b, const int32_t *new_index)
     Model *m = b->model;
     for (int i = 0; i < b->record_count; i++)
         for (int c = 0; c < 4; c++) b->records[i].node[c] = new_index[b->records[i].node[c]];
+    for (int i = 0; i < m->solid_count; i++)
+        for (int a = 0; a < 8; a++) m->solids[i].node[a] = new_index[m->solids[i].node[a]];
+    for (int i = 0; i < m->link_count; i++)
+        for (int end = 0; end < 2; end++) m->links[i].node[end] = new_index[m->links[i].node[end]];
     for (int i = 0; i < m->airbag_count; i++) {
         for (int k = 0; k < m->airbags[i].node_count; k++) m->airbags[i].node[k] = new_index[m->airbags[i].node[k]];
         for (int k = 0; k < b->closures[i].cap_count; k++) {

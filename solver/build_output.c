@@ -44,13 +44,14 @@ static int mark_history_nodes(Builder *b, unsigned char *wanted)
 static int history_nodes(Builder *b)
 {
     OutputPlan *plan = &b->model->output;
-    unsigned char *wanted = builder_alloc(b, (size_t)b->node_count, 1);
+    const int node_count = (int)b->definitions->nodes.count; /* the builder counts them later, with the shells */
+    unsigned char *wanted = builder_alloc(b, (size_t)node_count, 1);
     if (!wanted) return -1;
     int status = mark_history_nodes(b, wanted), count = 0;
-    for (int i = 0; i < b->node_count; i++) count += wanted[i];
+    for (int i = 0; i < node_count; i++) count += wanted[i];
     plan->history_node = builder_alloc(b, (size_t)count + 1, sizeof *plan->history_node);
     if (!plan->history_node) return -1;
-    for (int i = 0; i < b->node_count; i++)
+    for (int i = 0; i < node_count; i++)
         if (wanted[i]) plan->history_node[plan->history_count++] = i;
     return status;
 }

@@ -9,13 +9,6 @@
 
 static const double degree = 0.017453292519943295;
 
-static const SectionShellDefinition *find_section(const Definitions *d, int id)
-{
-    for (size_t i = 0; i < d->sections.count; i++)
-        if (d->sections.items[i].id == id) return &d->sections.items[i];
-    return NULL;
-}
-
 static void copy3(double *to, double a, double b, double c)
 {
     to[0] = a;
@@ -116,7 +109,8 @@ static int part_law(Builder *b, const PartDefinition *definition, const Material
     part->area_density = section->marea;
     part->quad = b->options->one_point_quads ? ELEMENT_QUAD_ONE : ELEMENT_QUAD_FULL;
     if (section->icomp == 1 && section->beta_count > 0) part->angle = section->beta[0] * degree;
-    if (!(m->ro > 0.0) && !(section->marea > 0.0) && m->kind != MATERIAL_NULL && m->kind != MATERIAL_RIGID) {
+    if (!(m->ro > 0.0) && !(section->marea > 0.0) && m->kind != MATERIAL_NULL && m->kind != MATERIAL_RIGID &&
+        m->kind != MATERIAL_SPRING && m->kind != MATERIAL_CABLE) {
         diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, NULL,
                         "material %d has density RO = %g; it must be positive", m->id, m->ro);
         return -1;
@@ -147,10 +141,72 @@ static int part_law(Builder *b, const PartDefinition *definition, const Material
     case MATERIAL_RIGID:
         part->law = LAW_SURFACE;
         break;
+    case MATERIAL_SPRING:
+    case MATERIAL_CABLE:
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, definition->source, "*PART",
+                        "part %d is of shells, but its material %d is for springs or cables; correct MID or SECID",
+                        definition->id, definition->material);
+        return -1;
     }
     part->fabric.density = m->ro;
     part->fabric.hourglass = hourglass_modulus(b, definition);
     return 0;
+}
+
+static void fill_part(const PartDefinition *definition, const MaterialDefinition *material, int index, Part *part)
+{
+    part->id = definition->id;
+    part->deck_index = index;
+    memcpy(part->title, definition->title, sizeof part->title);
+    part->material_id = definition->material;
+    part->section_id = definition->section;
+    part->material_kind = material->kind;
+    part->rigid_body = -1;
+    part->density = material->ro;
+}
+
+/* One part; -1 after an error. */
+static int build_part(Builder *b, int index)
+{
+    const Definitions *d = b->definitions;
+    const PartDefinition *definition = &d->parts.items[index];
+    PartRecord *record = &b->parts[index];
+    int status = 0;
+    record->material = id_map_find(&b->index.materials, definition->material);
+    record->kind = part_section(d, definition->section, &record->section);
+    record->law = LAW_SURFACE;
+    bool used = b->index.part_shell_start[index + 1] > b->index.part_shell_start[index];
+    if (record->material < 0) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, definition->source, "*PART",
+                        "part %d names material MID = %d, which the deck does not define", definition->id,
+                        definition->material);
+        status = -1;
+    }
+    if (record->kind == SECTION_NONE && used) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, definition->source, "*PART",
+                        "part %d names section SECID = %d, which the deck does not define as *SECTION_SHELL, _SOLID, "
+                        "_BEAM or _DISCRETE",
+                        definition->id, definition->section);
+        status = -1;
+    }
+    if (record->material < 0 || record->kind == SECTION_NONE) return status;
+    const MaterialDefinition *material = &d->materials.items[record->material];
+    if (record->kind != SECTION_SHELL) {
+        status = part_material_check(b, definition, record, material);
+        record->density = material->ro;
+    } else {
+        const SectionShellDefinition *section = &d->sections.items[record->section];
+        status = part_law(b, definition, material, section, record);
+        b->model->parts[index].thickness = section->t[0];
+    }
+    if (definition->has_inertia && material->kind != MATERIAL_RIGID) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, definition->source, "*PART_INERTIA",
+                        "part %d has an inertia of its own, but its material %d is not rigid; use *PART",
+                        definition->id, definition->material);
+        status = -1;
+    }
+    fill_part(definition, material, index, &b->model->parts[index]);
+    return status;
 }
 
 int build_parts(Builder *b)
@@ -162,36 +218,7 @@ int build_parts(Builder *b)
     if (!b->parts || !parts) return -1;
     b->model->parts = parts;
     b->model->part_count = (int)d->parts.count;
-    for (size_t i = 0; i < d->parts.count; i++) {
-        const PartDefinition *definition = &d->parts.items[i];
-        PartRecord *record = &b->parts[i];
-        record->material = id_map_find(&b->index.materials, definition->material);
-        const SectionShellDefinition *section = find_section(d, definition->section);
-        record->section = section ? (int)(section - d->sections.items) : -1;
-        record->law = LAW_SURFACE;
-        bool used = b->index.part_shell_start[i + 1] > b->index.part_shell_start[i];
-        if (record->material < 0)
-            diagnostics_add(b->diagnostics, SEVERITY_ERROR, definition->source, "*PART",
-                            "part %d names material MID = %d, which the deck does not define", definition->id,
-                            definition->material);
-        if (!section && used)
-            diagnostics_add(b->diagnostics, SEVERITY_ERROR, definition->source, "*PART",
-                            "part %d names section SECID = %d, which the deck does not define as *SECTION_SHELL",
-                            definition->id, definition->section);
-        if (record->material < 0 || (!section && used)) status = -1;
-        if (record->material < 0 || !section) continue;
-        const MaterialDefinition *material = &d->materials.items[record->material];
-        if (part_law(b, definition, material, section, record)) status = -1;
-        Part *part = &parts[i];
-        part->id = definition->id;
-        part->deck_index = (int)i;
-        memcpy(part->title, definition->title, sizeof part->title);
-        part->material_id = definition->material;
-        part->section_id = definition->section;
-        part->material_kind = material->kind;
-        part->rigid_body = -1;
-        part->density = material->ro;
-        part->thickness = section->t[0];
-    }
+    for (size_t i = 0; i < d->parts.count; i++)
+        if (build_part(b, (int)i)) status = -1;
     return status;
 }

@@ -121,15 +121,15 @@ static int add_motion(MotionList *list, const PrescribedMotion *motion, Diagnost
 static int add_rigid(const MotionInput *input, const Motion *motion, const PrescribedMotionDefinition *card,
                      PrescribedMotion *draft, MotionList *list, Diagnostics *diagnostics)
 {
-    int32_t part = id_map_find(&input->index->parts, card->id);
-    if (part < 0 || motion->part_body[part] < 0) {
+    int body = motion_find_body(input, motion, card->id);
+    if (body < 0) {
         diagnostics_add(diagnostics, SEVERITY_ERROR, card->source, keyword_of(card),
-                        part < 0 ? "PID = %d: there is no part of this id; define it or correct the card"
-                                 : "PID = %d is no rigid part with shells; give it *MAT_RIGID or use _SET",
+                        body == -3 ? "PID = %d: there is no part of this id; define it or correct the card"
+                                   : "PID = %d is no rigid part with elements; give it *MAT_RIGID or use _SET",
                         card->id);
         return -1;
     }
-    draft->rigid_body = motion->part_body[part];
+    draft->rigid_body = body;
     return add_motion(list, draft, diagnostics);
 }
 

@@ -1,6 +1,7 @@
-/* *MAT_RIGID parts: which never move, which become rigid bodies, and their constraints. */
+/* *MAT_RIGID parts, alone or merged, and nodal rigid bodies: which never move, which become bodies, what holds them. */
 #include <math.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "solver/memory.h"
@@ -12,7 +13,7 @@ static const bool CODE_FIXES[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}
 
 static const char *const KEYWORD = "*MAT_RIGID";
 
-static const MaterialDefinition *rigid_material(const MotionInput *input, int32_t part)
+const MaterialDefinition *rigid_material(const MotionInput *input, int32_t part)
 {
     const Definitions *d = input->index->definitions;
     int32_t found = id_map_find(&input->index->materials, d->parts.items[part].material);
@@ -83,97 +84,214 @@ static int refuse_coupling(const MaterialDefinition *material, Diagnostics *diag
     return -1;
 }
 
-static bool has_motion(const Definitions *d, int part_id)
+static bool has_motion(const Definitions *d, int id)
 {
     for (size_t m = 0; m < d->motions.count; m++) {
-        if (d->motions.items[m].kind == MOTION_RIGID && d->motions.items[m].id == part_id) return true;
+        if (d->motions.items[m].kind == MOTION_RIGID && d->motions.items[m].id == id) return true;
     }
     return false;
 }
 
-/* Gives the part's nodes its code; a node of two rigid parts is an error unless neither ever moves. */
-static int claim_nodes(const MotionInput *input, Motion *motion, int32_t part, int code, const IndexList *nodes,
-                       int32_t *owner, Diagnostics *diagnostics)
+/* One body in the making: a lead part with those merged into it, or a node set. */
+typedef struct Group {
+    RigidBody draft;
+    int code;    /* index of the body, or MOTION_FIXED */
+    bool driven; /* some prescribed motion names it */
+    IndexList nodes;
+    Source source; /* of the card that messages name */
+    const char *keyword;
+} Group;
+
+/* The tables while bodies are collected. */
+typedef struct Bodies {
+    int32_t *lead;  /* of each part: the part whose body it belongs to; itself if it was not merged (part count) */
+    int32_t *owner; /* of each node: number of its group + 1 (node count) */
+    int *group_id;  /* user's id of each group (part count + nodal bodies) */
+    int group_count;
+} Bodies;
+
+static int compare_indices(const void *a, const void *b)
 {
-    const Definitions *d = input->index->definitions;
-    for (size_t k = 0; k < nodes->count; k++) {
-        int32_t node = nodes->items[k];
-        if (owner[node] > 0 && !(code == MOTION_FIXED && motion->node_body[node] == MOTION_FIXED)) {
-            diagnostics_add(
-                diagnostics, SEVERITY_ERROR, d->parts.items[part].source, "*PART",
-                "rigid parts %d and %d share node %d; LS-DYNA needs *CONSTRAINED_RIGID_BODIES for that: give "
-                "the parts nodes of their own or make them one part",
-                d->parts.items[owner[node] - 1].id, d->parts.items[part].id, d->nodes.items[node].id);
-            return -1;
+    const int32_t *p = a, *q = b;
+    return (*p > *q) - (*p < *q);
+}
+
+/* Ascending, each once. */
+static void sort_nodes(IndexList *nodes)
+{
+    if (nodes->count < 2) return;
+    qsort(nodes->items, nodes->count, sizeof *nodes->items, compare_indices);
+    size_t kept = 1;
+    for (size_t k = 1; k < nodes->count; k++)
+        if (nodes->items[k] != nodes->items[kept - 1]) nodes->items[kept++] = nodes->items[k];
+    nodes->count = kept;
+}
+
+/* Gives the group's nodes its code; a node of two bodies is an error unless neither ever moves. */
+static int claim_nodes(const MotionInput *input, Motion *motion, const Group *group, Bodies *bodies,
+                       Diagnostics *diagnostics)
+{
+    int status = 0;
+    for (size_t k = 0; k < group->nodes.count; k++) {
+        int32_t node = group->nodes.items[k];
+        int before = bodies->owner[node];
+        if (before > 0 && !(group->code == MOTION_FIXED && motion->node_body[node] == MOTION_FIXED)) {
+            if (status == 0)
+                diagnostics_add(diagnostics, SEVERITY_ERROR, group->source, group->keyword,
+                                "rigid bodies %d and %d share node %d; join the parts by *CONSTRAINED_RIGID_BODIES, or "
+                                "give each nodes of its own",
+                                bodies->group_id[before - 1], group->draft.part_id,
+                                input->index->definitions->nodes.items[node].id);
+            status = -1;
+            continue;
         }
-        owner[node] = part + 1;
-        motion->node_body[node] = code;
-        if (code == MOTION_FIXED) motion->fixed[node] = 1;
+        bodies->owner[node] = bodies->group_count + 1;
+        motion->node_body[node] = group->code;
+        if (group->code == MOTION_FIXED) motion->fixed[node] = 1;
     }
-    return 0;
+    bodies->group_id[bodies->group_count++] = group->draft.part_id;
+    return status;
 }
 
 /* Takes the nodes into a new body. */
-static int add_body(Motion *motion, const RigidBody *draft, const IndexList *nodes)
+static int add_body(Motion *motion, const Group *group)
 {
     RigidBody *body = &motion->rigid_bodies[motion->rigid_body_count];
-    *body = *draft;
-    body->node_count = (int)nodes->count;
-    body->node = memory_alloc(nodes->count, sizeof *body->node);
+    *body = group->draft;
+    body->node_count = (int)group->nodes.count;
+    body->node = memory_alloc(group->nodes.count, sizeof *body->node);
     if (!body->node) return -1;
-    memcpy(body->node, nodes->items, nodes->count * sizeof *body->node);
+    memcpy(body->node, group->nodes.items, group->nodes.count * sizeof *body->node);
     motion->rigid_body_count++;
     return 0;
 }
 
-static int build_part(const MotionInput *input, Motion *motion, int32_t part, int32_t *owner, Diagnostics *diagnostics)
+/* Decides whether the group moves, and takes it in; frees its nodes. */
+static int close_group(const MotionInput *input, Motion *motion, Group *group, Bodies *bodies, Diagnostics *diagnostics)
+{
+    bool moves = group->driven || has_motion(input->index->definitions, group->draft.part_id);
+    int status = 0;
+    for (int i = 0; i < 3; i++) moves = moves || !group->draft.fix_translation[i] || !group->draft.fix_rotation[i];
+    group->code = moves && group->nodes.count > 0 ? motion->rigid_body_count : MOTION_FIXED;
+    sort_nodes(&group->nodes);
+    if (group->nodes.count > 0) {
+        status = claim_nodes(input, motion, group, bodies, diagnostics);
+        if (moves && add_body(motion, group)) status = motion_no_memory(KEYWORD, diagnostics);
+    }
+    index_list_free(&group->nodes);
+    return status;
+}
+
+/* Nodes of *CONSTRAINED_EXTRA_NODES for the parts of this lead. */
+static int add_extra_nodes(const MotionInput *input, const Bodies *bodies, int32_t lead, Group *group,
+                           Diagnostics *diagnostics)
 {
     const Definitions *d = input->index->definitions;
-    const MaterialDefinition *material = rigid_material(input, part);
-    if (!material) return 0;
-    RigidBody draft = {.part_id = d->parts.items[part].id};
-    int status = refuse_coupling(material, diagnostics);
-    if (read_constraints(input, material, &draft, diagnostics)) status = -1;
-    bool moves = has_motion(d, draft.part_id);
-    for (int i = 0; i < 3; i++) moves = moves || !draft.fix_translation[i] || !draft.fix_rotation[i];
-    motion->part_body[part] = moves ? motion->rigid_body_count : MOTION_FIXED;
-    IndexList nodes = {0};
-    if (sets_part_nodes(input->index, &part, 1, &nodes)) {
+    int status = 0;
+    for (size_t k = 0; k < d->extra_nodes.count; k++) {
+        const ExtraNodesDefinition *extra = &d->extra_nodes.items[k];
+        const char *keyword = extra->is_set ? "*CONSTRAINED_EXTRA_NODES_SET" : "*CONSTRAINED_EXTRA_NODES_NODE";
+        int32_t part = id_map_find(&input->index->parts, extra->part);
+        IndexList nodes = {0};
+        if (part < 0 || bodies->lead[part] != lead) continue;
+        if (motion_find_nodes(input, extra->is_set, extra->id, extra->source, keyword, &nodes, diagnostics))
+            status = -1;
+        for (size_t n = 0; n < nodes.count; n++)
+            if (index_list_add(&group->nodes, nodes.items[n])) status = motion_no_memory(keyword, diagnostics);
+        if (extra->iflag != 0 && d->parts.items[lead].has_inertia) {
+            diagnostics_add(diagnostics, SEVERITY_ERROR, extra->source, keyword,
+                            "IFLAG = %d: billow does not add the nodes' mass to that of *PART_INERTIA of part %d; put "
+                            "it into the card and set IFLAG = 0",
+                            extra->iflag, extra->part);
+            status = -1;
+        }
+        if (nodes.count > 0) {
+            group->draft.merged = true;
+            group->source = extra->source;
+            group->keyword = keyword;
+        }
         index_list_free(&nodes);
-        return motion_no_memory(KEYWORD, diagnostics);
     }
-    if (nodes.count == 0) {
-        motion->part_body[part] = MOTION_FIXED; /* no shells: nothing to move */
-    } else {
-        if (claim_nodes(input, motion, part, motion->part_body[part], &nodes, owner, diagnostics)) status = -1;
-        if (moves && add_body(motion, &draft, &nodes)) status = motion_no_memory(KEYWORD, diagnostics);
+    return status;
+}
+
+/* The body of one lead part with all that were merged into it. */
+static int build_part(const MotionInput *input, Motion *motion, int32_t lead, Bodies *bodies, Diagnostics *diagnostics)
+{
+    const Definitions *d = input->index->definitions;
+    const MaterialDefinition *material = rigid_material(input, lead);
+    if (!material || bodies->lead[lead] != lead) return 0;
+    Group group = {
+        .draft = {.part_id = d->parts.items[lead].id}, .source = d->parts.items[lead].source, .keyword = "*PART"};
+    IndexList parts = {0};
+    int status = refuse_coupling(material, diagnostics);
+    if (read_constraints(input, material, &group.draft, diagnostics)) status = -1;
+    for (size_t p = 0; p < d->parts.count; p++)
+        if (bodies->lead[p] == lead && rigid_material(input, (int32_t)p) && index_list_add(&parts, (int32_t)p))
+            status = motion_no_memory(KEYWORD, diagnostics);
+    for (size_t k = 0; k < parts.count; k++)
+        group.driven = group.driven || has_motion(d, d->parts.items[parts.items[k]].id);
+    group.draft.merged = parts.count > 1;
+    if (sets_part_nodes(input->index, parts.items, parts.count, &group.nodes))
+        status = motion_no_memory(KEYWORD, diagnostics);
+    if (add_extra_nodes(input, bodies, lead, &group, diagnostics)) status = -1;
+    if (close_group(input, motion, &group, bodies, diagnostics)) status = -1;
+    for (size_t k = 0; k < parts.count; k++) motion->part_body[parts.items[k]] = group.code;
+    index_list_free(&parts);
+    return status;
+}
+
+/* One *CONSTRAINED_NODAL_RIGID_BODY. */
+static int build_nodal(const MotionInput *input, Motion *motion, const NodalRigidBodyDefinition *card, Bodies *bodies,
+                       Diagnostics *diagnostics)
+{
+    static const char *const keyword = "*CONSTRAINED_NODAL_RIGID_BODY";
+    const MaterialDefinition held = {.id = card->id,
+                                     .source = card->has_spc ? card->spc_source : card->source,
+                                     .rigid = {.cmo = card->cmo, .con1 = card->con1, .con2 = card->con2}};
+    Group group = {
+        .draft = {.part_id = card->id, .nodal = true, .merged = true}, .source = card->source, .keyword = keyword};
+    int status = read_constraints(input, &held, &group.draft, diagnostics);
+    if (id_map_find(&input->index->parts, card->id) >= 0) {
+        diagnostics_add(diagnostics, SEVERITY_ERROR, card->source, keyword,
+                        "PID = %d is the number of a *PART as well; a nodal rigid body needs one of its own", card->id);
+        status = -1;
     }
-    index_list_free(&nodes);
+    if (sets_resolve_nodes(input->index, card->nsid, card->source, keyword, &group.nodes, diagnostics)) status = -1;
+    if (close_group(input, motion, &group, bodies, diagnostics)) status = -1;
     return status;
 }
 
 int build_rigid_bodies(const MotionInput *input, Motion *motion, Diagnostics *diagnostics)
 {
     const Definitions *d = input->index->definitions;
-    size_t nodes = d->nodes.count, parts = d->parts.count;
+    size_t nodes = d->nodes.count, parts = d->parts.count, bodies_at_most = parts + d->nodal_bodies.count;
     motion->node_count = (int)nodes;
     motion->part_body = memory_alloc(parts + 1, sizeof *motion->part_body);
     motion->node_body = memory_alloc(nodes + 1, sizeof *motion->node_body);
     motion->fixed = memory_alloc(nodes + 1, sizeof *motion->fixed);
     motion->velocity = memory_alloc(3 * nodes + 1, sizeof *motion->velocity);
-    motion->rigid_bodies = memory_alloc(parts + 1, sizeof *motion->rigid_bodies);
-    int32_t *owner = memory_alloc(nodes + 1, sizeof *owner); /* part + 1 */
+    motion->rigid_bodies = memory_alloc(bodies_at_most + 1, sizeof *motion->rigid_bodies);
+    Bodies bodies = {.lead = memory_alloc(parts + 1, sizeof *bodies.lead),
+                     .owner = memory_alloc(nodes + 1, sizeof *bodies.owner),
+                     .group_id = memory_alloc(bodies_at_most + 1, sizeof *bodies.group_id)};
     int status = 0;
     if (!motion->part_body || !motion->node_body || !motion->fixed || !motion->velocity || !motion->rigid_bodies ||
-        !owner) {
+        !bodies.lead || !bodies.owner || !bodies.group_id) {
         status = motion_no_memory(KEYWORD, diagnostics);
     } else {
         for (size_t p = 0; p < parts; p++) motion->part_body[p] = MOTION_DEFORMABLE;
         for (size_t n = 0; n < nodes; n++) motion->node_body[n] = MOTION_DEFORMABLE;
+        status = rigid_merges_resolve(input, bodies.lead, diagnostics);
         for (size_t p = 0; p < parts; p++) {
-            if (build_part(input, motion, (int32_t)p, owner, diagnostics)) status = -1;
+            if (build_part(input, motion, (int32_t)p, &bodies, diagnostics)) status = -1;
+        }
+        for (size_t k = 0; k < d->nodal_bodies.count; k++) {
+            if (build_nodal(input, motion, &d->nodal_bodies.items[k], &bodies, diagnostics)) status = -1;
         }
     }
-    memory_free(owner);
+    memory_free(bodies.lead);
+    memory_free(bodies.owner);
+    memory_free(bodies.group_id);
     return status;
 }

@@ -51,7 +51,7 @@ static int shell_nodes(Builder *b, const ShellDefinition *shell, ShellRecord *re
     for (int a = 0; a < 4; a++) {
         record->node[a] = id_map_find(&b->index.nodes, shell->node[a]);
         if (record->node[a] >= 0 || (a == 3 && record->corner_count == 3)) continue;
-        note_missing(missing, shell, a);
+        if (!shell->is_face) note_missing(missing, shell, a); /* solids have messages of their own */
         status = -1;
     }
     return status;
@@ -68,17 +68,44 @@ static double shell_thickness(const ShellDefinition *shell, const SectionShellDe
     return sum / corners;
 }
 
+static double corner_area(const Builder *b, const ShellRecord *record)
+{
+    double corner[12];
+    for (int a = 0; a < record->corner_count; a++)
+        for (int k = 0; k < 3; k++) corner[3 * a + k] = b->x[3 * record->node[a] + k];
+    return geometry_area(record->corner_count, corner);
+}
+
+/* A face of a solid: a surface without mass. */
+static int face_record(Builder *b, ShellRecord *record)
+{
+    record->law = LAW_SURFACE;
+    record->kind = record->corner_count == 3 ? ELEMENT_TRIANGLE : ELEMENT_QUAD_FULL;
+    record->area = corner_area(b, record);
+    record->pressure_set = -1;
+    record->orientation = 1;
+    return 0;
+}
+
 static int shell_record(Builder *b, const ShellDefinition *shell, ShellRecord *record, MissingNodes *missing)
 {
     record->part = id_map_find(&b->index.parts, shell->part);
     if (record->part < 0) {
-        diagnostics_add(b->diagnostics, SEVERITY_ERROR, shell->source, "*ELEMENT_SHELL",
-                        "element %d belongs to part PID = %d, which the deck does not define", shell->id, shell->part);
+        if (!shell->is_face)
+            diagnostics_add(b->diagnostics, SEVERITY_ERROR, shell->source, "*ELEMENT_SHELL",
+                            "element %d belongs to part PID = %d, which the deck does not define", shell->id,
+                            shell->part);
         return -1;
     }
     if (shell_nodes(b, shell, record, missing)) return -1;
     const PartRecord *part = &b->parts[record->part];
-    if (part->section < 0 || part->material < 0) return -1;
+    if (shell->is_face) return face_record(b, record);
+    if (part->kind != SECTION_SHELL && part->kind != SECTION_NONE)
+        diagnostics_add(
+            b->diagnostics, SEVERITY_ERROR, shell->source, "*ELEMENT_SHELL",
+            "element %d belongs to part %d, whose section is none for shells; give the part a *SECTION_SHELL",
+            shell->id, shell->part);
+    if (part->kind != SECTION_SHELL || part->material < 0) return -1;
     record->law = part->law;
     record->kind = record->corner_count == 3 ? ELEMENT_TRIANGLE : part->quad;
     record->axis = part->axis;
@@ -99,10 +126,7 @@ static int shell_record(Builder *b, const ShellDefinition *shell, ShellRecord *r
                         section->t[0], shell->id, shell->part);
         return -1;
     }
-    double corner[12];
-    for (int a = 0; a < record->corner_count; a++)
-        for (int k = 0; k < 3; k++) corner[3 * a + k] = b->x[3 * record->node[a] + k];
-    record->area = geometry_area(record->corner_count, corner);
+    record->area = corner_area(b, record);
     record->mass = record->area * (part->density * record->thickness + part->area_density);
     record->pressure_set = -1;
     record->orientation = 1;

@@ -176,23 +176,45 @@ static void body_from_nodes(RigidBody *body, const double *x, const double *mass
     if (vector3_norm(body->spin) * reach <= 1e-12 * speed) memset(body->spin, 0, sizeof body->spin);
 }
 
+/* A body whose inertia a card gives moves as its nodes do; their masses only weigh them. */
+static int given_body_from_nodes(RigidBody *body, const double *x, const double *mass, const double *velocity)
+{
+    RigidBody lumped = {.node_count = body->node_count, .node = body->node};
+    double arm[3], turning[3];
+    bool moves = false;
+    for (int k = 0; k < body->node_count; k++)
+        for (size_t i = 0; i < 3; i++) moves = moves || velocity[3 * (size_t)body->node[k] + i] != 0;
+    if (!moves) return 0;
+    int status = rigid_body_build(&lumped, x, mass);
+    if (status == 0) {
+        body_from_nodes(&lumped, x, mass, velocity);
+        vector3_subtract(body->centre, lumped.centre, arm);
+        vector3_cross(lumped.spin, arm, turning);
+        for (int i = 0; i < 3; i++) body->velocity[i] = lumped.velocity[i] + turning[i];
+        memcpy(body->spin, lumped.spin, sizeof body->spin);
+    }
+    memory_free(lumped.offset);
+    return status < 0 ? -1 : 0;
+}
+
 static int set_rigid_body(const MotionInput *input, const InitialVelocityDefinition *card, Motion *motion,
                           Diagnostics *diagnostics)
 {
-    int32_t part = id_map_find(&input->index->parts, card->id);
-    if (part < 0 || motion->part_body[part] == MOTION_DEFORMABLE) {
+    int found = motion_find_body(input, motion, card->id);
+    if (found == -3 || found == MOTION_DEFORMABLE) {
         diagnostics_add(diagnostics, SEVERITY_ERROR, card->source, keyword_of(card),
-                        part < 0 ? "PID = %d: there is no part of this id; define it or correct the card"
-                                 : "PID = %d is no rigid part; give it *MAT_RIGID or use *INITIAL_VELOCITY_GENERATION",
+                        found == -3
+                            ? "PID = %d: there is no part of this id; define it or correct the card"
+                            : "PID = %d is no rigid part; give it *MAT_RIGID or use *INITIAL_VELOCITY_GENERATION",
                         card->id);
         return -1;
     }
-    if (motion->part_body[part] == MOTION_FIXED) {
+    if (found == MOTION_FIXED) {
         diagnostics_add(diagnostics, SEVERITY_WARNING, card->source, keyword_of(card),
                         "part %d is fixed by CON1 and CON2 of its *MAT_RIGID; its velocity stays zero", card->id);
         return 0;
     }
-    RigidBody *body = &motion->rigid_bodies[motion->part_body[part]];
+    RigidBody *body = &motion->rigid_bodies[found];
     if (to_global(input, card, card->v, body->velocity, diagnostics)) return -1;
     return to_global(input, card, card->w, body->spin, diagnostics);
 }
@@ -249,7 +271,12 @@ int build_velocities(const MotionInput *input, const double *mass, Motion *motio
     if (run_cards(input, motion, VELOCITY_GENERATION, diagnostics)) status = -1;
     if (run_cards(input, motion, VELOCITY_NODE, diagnostics)) status = -1;
     for (int b = 0; b < motion->rigid_body_count; b++) {
-        if (motion->rigid_bodies[b].offset) body_from_nodes(&motion->rigid_bodies[b], input->x, mass, motion->velocity);
+        RigidBody *body = &motion->rigid_bodies[b];
+        if (!body->offset) continue;
+        if (!body->given)
+            body_from_nodes(body, input->x, mass, motion->velocity);
+        else if (given_body_from_nodes(body, input->x, mass, motion->velocity))
+            status = motion_no_memory("*INITIAL_VELOCITY", diagnostics);
     }
     if (run_cards(input, motion, VELOCITY_RIGID_BODY, diagnostics)) status = -1;
     place_bodies(input, motion);

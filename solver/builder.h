@@ -8,9 +8,14 @@
 #include "solver/deck_index.h"
 #include "solver/model.h"
 
+/* Which keyword a part's section is of, and so what its elements are. */
+typedef enum SectionKind { SECTION_NONE, SECTION_SHELL, SECTION_SOLID, SECTION_BEAM, SECTION_DISCRETE } SectionKind;
+
 /* One part with its laws resolved; in deck order. */
 typedef struct PartRecord {
-    int material, section; /* positions in Definitions, -1 if missing (reported) */
+    int material,
+        section; /* positions in Definitions (in the list of sections of the kind), -1 if missing (reported) */
+    SectionKind kind;
     LawKind law;
     ElementKind quad; /* kind of its quads */
     FabricLaw fabric;
@@ -43,11 +48,13 @@ typedef struct Builder {
     DeckIndex index;
     int node_count, shell_count, record_count; /* records: shells, then bare segments */
     size_t record_capacity;
-    double *x;    /* (node_count x 3), deck order */
-    double *mass; /* (node_count), deck order */
+    double *x;         /* (node_count x 3), deck order */
+    double *mass;      /* (node_count), deck order */
+    double *link_mass; /* of beams and cables at the nodes (node_count), deck order; NULL if there are none */
     ShellRecord *records;
     PartRecord *parts;
     Motion motion;
+    unsigned char *wall_node; /* nodes named by each wall (wall count x node count), deck order */
     SurfaceClosure *closures; /* (airbag count), nodes in deck order until build_renumber */
     int32_t *order;           /* element order: order[k] = record of the k-th element in group order */
 } Builder;
@@ -56,9 +63,22 @@ typedef struct Builder {
 void *builder_alloc(Builder *builder, size_t count, size_t size);
 int builder_adopt(Builder *builder, void *block);
 
+/* The section of this number and its place in its list (-1 if there is none). */
+SectionKind part_section(const Definitions *definitions, int id, int *place);
+
+/* Whether a part of solids, beams or springs has a material that goes with them; 0, or -1 after an error. */
+int part_material_check(Builder *builder, const PartDefinition *definition, const PartRecord *record,
+                        const MaterialDefinition *material);
+
+/* Area of a beam's cross-section, 0 if it is not known. */
+double beam_area(const SectionBeamDefinition *section);
+
 /* The stages, in order; 0, or -1 after reporting an error. Later stages need earlier ones to have succeeded. */
-int build_parts(Builder *builder);  /* materials, sections -> laws */
-int build_shells(Builder *builder); /* shells -> records, masses */
+int build_parts(Builder *builder);     /* materials, sections -> laws */
+int build_shells(Builder *builder);    /* shells -> records, masses */
+int build_links(Builder *builder);     /* beams, springs, cables -> links, masses of nodes; after build_shells */
+int build_link_ends(Builder *builder); /* which links share an end, and its mass; after build_renumber */
+int build_solids(Builder *builder);    /* solids -> masses of their nodes; after build_shells */
 int build_curves(Builder *builder);
 int build_spline(Builder *builder, int curve); /* index of a curve's points as a cubic spline; -1 without memory */
 int build_surfaces(Builder *builder);          /* airbags' surfaces: orientation and caps */
@@ -71,5 +91,7 @@ int build_mass_scaling(Builder *builder);      /* DT2MS */
 int build_renumber(Builder *builder);          /* node and element order for locality */
 int build_groups(Builder *builder);            /* blocks, kernel constants */
 int build_rows(Builder *builder);              /* segments and rows of corner sums */
+int build_walls(Builder *builder);             /* rigid walls and their nodes; after build_shells */
+int build_wall_nodes(Builder *builder);        /* the same in the model's order; after build_renumber */
 
 #endif

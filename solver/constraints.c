@@ -123,6 +123,50 @@ void constraints_apply(const Constraints *constraints, const Curve *curves, doub
     if (work) *work += done;
 }
 
+/* The first support of the node or of a later one. */
+static int first_support(const Constraints *constraints, int32_t node)
+{
+    int low = 0, high = constraints->support_count;
+    while (low < high) {
+        int middle = low + (high - low) / 2;
+        if (constraints->supports[middle].node < node)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static int first_motion(const Constraints *constraints, int32_t node)
+{
+    int low = 0, high = constraints->node_motion_count;
+    while (low < high) {
+        int middle = low + (high - low) / 2;
+        if (constraints->motions[middle].node < node)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+void constraints_held(const Constraints *constraints, int32_t node, double time, RateRows *rows)
+{
+    for (int m = first_motion(constraints, node); m < constraints->node_motion_count; m++) {
+        const PrescribedMotion *motion = &constraints->motions[m];
+        if (motion->node != node) break;
+        if (!(time >= motion->birth && time < motion->death)) continue;
+        rate_rows_add(rows, motion->direction, 0);
+        if (!motion->only_direction) continue;
+        static const double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+        for (int k = 0; k < 3; k++) rate_rows_add(rows, axes + 3 * k, 0);
+    }
+    for (int s = first_support(constraints, node); s < constraints->support_count; s++) {
+        if (constraints->supports[s].node != node) break;
+        if (support_active(&constraints->supports[s], time)) add_support(rows, &constraints->supports[s]);
+    }
+}
+
 void constraints_start(const Constraints *constraints, double *v)
 {
     for (int s = 0; s < constraints->support_count;) {

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "solver/curve.h"
+#include "solver/rate_rows.h"
 
 /* A support: components fixed in a local frame between birth and death (birth <= t_n < death). */
 typedef struct Support {
@@ -62,6 +63,9 @@ void constraints_apply(const Constraints *constraints, const Curve *curves, doub
  * start (not for rotations). False if the motion is not active. */
 bool constraints_motion_rate(const PrescribedMotion *motion, const Curve *curves, double time, double dt_mean,
                              double dt_next, double before, double path, double *rate);
+
+/* Adds to rows the directions in which a node is held or driven at the time, with rate 0. */
+void constraints_held(const Constraints *constraints, int32_t node, double time, RateRows *rows);
 
 /* Velocities of hanging nodes: the mean of their ends', so that a node keeps its place relative to the edge's middle
  * and the forces folded to the ends do the same work. v: (.. x 3). */

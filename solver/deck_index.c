@@ -56,6 +56,7 @@ static int index_lists(DeckIndex *index, Diagnostics *diagnostics)
     const IndexTask tasks[] = {
         INDEX_TASK(nodes, nodes, "*NODE", "node"),
         INDEX_TASK(shells, shells, "*ELEMENT_SHELL", "shell"),
+        INDEX_TASK(solids, solids, "*ELEMENT_SOLID", "solid"),
         INDEX_TASK(parts, parts, "*PART", "part"),
         INDEX_TASK(materials, materials, "*MAT", "material"),
         INDEX_TASK(curves, curves, "*DEFINE_CURVE", "curve"),
@@ -65,7 +66,9 @@ static int index_lists(DeckIndex *index, Diagnostics *diagnostics)
     };
     int status = 0;
     for (size_t t = 0; t < sizeof tasks / sizeof *tasks; t++) {
-        if (tasks[t].count > 0 && run_task(&tasks[t], diagnostics)) status = -1;
+        IndexTask task = tasks[t];
+        if (task.map == &index->shells) task.count -= d->face_count; /* faces of solids have no numbers of their own */
+        if (task.count > 0 && run_task(&task, diagnostics)) status = -1;
     }
     return status;
 }
@@ -161,7 +164,7 @@ int deck_index_curve(const DeckIndex *index, int curve_id, const char *field, So
 
 void deck_index_free(DeckIndex *index)
 {
-    IdMap *maps[] = {&index->nodes,  &index->shells,      &index->parts,   &index->materials,
+    IdMap *maps[] = {&index->nodes,  &index->shells,      &index->parts,   &index->materials, &index->solids,
                      &index->curves, &index->coordinates, &index->vectors, &index->boxes};
     for (size_t m = 0; m < sizeof maps / sizeof *maps; m++) id_map_free(maps[m]);
     for (int kind = 0; kind < 4; kind++) id_map_free(&index->sets[kind]);

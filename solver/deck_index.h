@@ -8,7 +8,7 @@
 /* Indices are positions in the lists of Definitions (deck order). Curve indices are those of Definitions.curves. */
 typedef struct DeckIndex {
     const Definitions *definitions;
-    IdMap nodes, shells, parts, materials, curves, coordinates, vectors, boxes;
+    IdMap nodes, shells, solids, parts, materials, curves, coordinates, vectors, boxes;
     IdMap sets[4];             /* by SetKind; index into Definitions.sets */
     int32_t *part_shell_start; /* CSR by part (part count + 1): shells of each part, deck order */
     int32_t *part_shell;

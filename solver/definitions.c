@@ -17,13 +17,18 @@ void definitions_free(Definitions *d)
         memory_free(d->curves.items[i].y.items);
         memory_free(d->curves.items[i].lines.items);
     }
-    void *lists[] = {d->nodes.items,         d->shells.items,      d->parts.items,         d->sections.items,
-                     d->materials.items,     d->hourglasses.items, d->sets.items,          d->curves.items,
-                     d->coordinates.items,   d->vectors.items,     d->boxes.items,         d->adaptivities.items,
-                     d->databases.items,     d->histories.items,   d->spcs.items,          d->motions.items,
-                     d->velocities.items,    d->node_loads.items,  d->segment_loads.items, d->body_loads.items,
-                     d->gravity_parts.items, d->dampings.items,    d->airbags.items,       d->interactions.items,
-                     d->porosities.items};
+    void *lists[] = {d->nodes.items,         d->shells.items,         d->parts.items,
+                     d->sections.items,      d->materials.items,      d->hourglasses.items,
+                     d->sets.items,          d->curves.items,         d->coordinates.items,
+                     d->vectors.items,       d->boxes.items,          d->adaptivities.items,
+                     d->databases.items,     d->histories.items,      d->spcs.items,
+                     d->motions.items,       d->velocities.items,     d->node_loads.items,
+                     d->segment_loads.items, d->body_loads.items,     d->gravity_parts.items,
+                     d->dampings.items,      d->airbags.items,        d->walls.items,
+                     d->solids.items,        d->solid_sections.items, d->merges.items,
+                     d->extra_nodes.items,   d->nodal_bodies.items,   d->beams.items,
+                     d->beam_sections.items, d->discretes.items,      d->discrete_sections.items,
+                     d->interactions.items,  d->porosities.items};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) memory_free(lists[i]);
     memset(d, 0, sizeof *d);
 }

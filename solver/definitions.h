@@ -33,14 +33,89 @@ typedef struct ShellDefinition {
     double beta;         /* degrees, _BETA or the thickness card; valid if has_beta */
     int mcid;            /* _MCID coordinate system; 0 none */
     bool has_beta;
+    bool is_face; /* outer face of a solid of a rigid part, made by solid_faces_add; its id is the solid's */
     Source source;
 } ShellDefinition;
+
+typedef struct SolidDefinition { /* *ELEMENT_SOLID: wedges and tetrahedra repeat nodes */
+    int id, part;
+    int node[8];
+    Source source;
+} SolidDefinition;
+
+typedef struct SectionSolidDefinition {
+    int id, elform;
+    Source source;
+} SectionSolidDefinition;
+
+typedef struct BeamDefinition { /* *ELEMENT_BEAM */
+    int id, part;
+    int node[3];
+    Source source;
+} BeamDefinition;
+
+typedef struct SectionBeamDefinition { /* *SECTION_BEAM; which members count depends on elform */
+    int id, elform;
+    double cst;
+    double ts[2], tt[2]; /* 1, 9, 11 */
+    double a;            /* 2, 3, 12, 13 */
+    double stress;       /* 3 */
+    double vol, ca, offset;
+    Source source, card2;
+} SectionBeamDefinition;
+
+typedef struct DiscreteDefinition { /* *ELEMENT_DISCRETE */
+    int id, part;
+    int node[2];
+    int vid;
+    double s, offset;
+    Source source;
+} DiscreteDefinition;
+
+typedef struct SectionDiscreteDefinition {
+    int id, dro;
+    double kd, v0, cl, fd, cdl, tdl;
+    Source source;
+} SectionDiscreteDefinition;
+
+/* Cards of *PART_INERTIA and *CONSTRAINED_NODAL_RIGID_BODY_INERTIA. */
+typedef struct InertiaCard {
+    double centre[3], tm;
+    int ircs, nodeid;
+    double i[6]; /* xx xy xz yy yz zz */
+    double v[3], w[3];
+    double x_axis[3], in_plane[3]; /* IRCS = 1: vectors of the local axes, unless cid */
+    int cid;
+    Source source, tensor_source, axes_source;
+} InertiaCard;
 
 typedef struct PartDefinition {
     int id, section, material, eosid, hourglass, grav, adpopt, tmid;
     char title[BILLOW_TITLE_LENGTH];
+    bool has_inertia;
+    InertiaCard inertia;
     Source source;
 } PartDefinition;
+
+typedef struct RigidMergeDefinition { /* *CONSTRAINED_RIGID_BODIES: part other becomes one body with part lead */
+    int lead, other, iflag;
+    Source source;
+} RigidMergeDefinition;
+
+typedef struct ExtraNodesDefinition { /* *CONSTRAINED_EXTRA_NODES_NODE / _SET: nodes that follow a rigid part */
+    bool is_set;
+    int part, id, iflag;
+    Source source;
+} ExtraNodesDefinition;
+
+typedef struct NodalRigidBodyDefinition { /* *CONSTRAINED_NODAL_RIGID_BODY: a node set as a rigid body */
+    int id, cid, nsid, pnode, iprt, drflag, rrflag;
+    bool has_spc, has_inertia;
+    double cmo, con1, con2;
+    char title[BILLOW_TITLE_LENGTH];
+    InertiaCard inertia;
+    Source source, spc_source;
+} NodalRigidBodyDefinition;
 
 typedef struct SectionShellDefinition {
     int id, elform, propt, icomp, setyp, qr_irid;
@@ -51,7 +126,14 @@ typedef struct SectionShellDefinition {
     Source source;
 } SectionShellDefinition;
 
-typedef enum MaterialKind { MATERIAL_FABRIC, MATERIAL_ELASTIC, MATERIAL_NULL, MATERIAL_RIGID } MaterialKind;
+typedef enum MaterialKind {
+    MATERIAL_FABRIC,
+    MATERIAL_ELASTIC,
+    MATERIAL_NULL,
+    MATERIAL_RIGID,
+    MATERIAL_SPRING, /* *MAT_SPRING_ELASTIC: k */
+    MATERIAL_CABLE,  /* *MAT_CABLE_DISCRETE_BEAM: ro, e, f0 */
+} MaterialKind;
 
 /* *MAT_FABRIC (MAT_034): every field of the cards, names as in the manual. */
 typedef struct FabricCard {
@@ -84,6 +166,7 @@ typedef struct MaterialDefinition {
     double ro;
     double e, pr, da, db, k;     /* MAT_ELASTIC; MAT_NULL's YM and PR are in e and pr */
     double pc, mu, terod, cerod; /* MAT_NULL */
+    double f0;                   /* MAT_CABLE_DISCRETE_BEAM */
     FabricCard fabric;
     RigidCard rigid;
     Source source;
@@ -376,12 +459,36 @@ typedef struct InteractionDefinition {
     Source source;
 } InteractionDefinition;
 
+/* *RIGIDWALL_PLANAR and *RIGIDWALL_GEOMETRIC_FLAT, _SPHERE, _CYLINDER, _PRISM with their options. */
+typedef struct RigidWallDefinition {
+    enum { RIGIDWALL_PLANAR, RIGIDWALL_FLAT, RIGIDWALL_SPHERE, RIGIDWALL_CYLINDER, RIGIDWALL_PRISM } kind;
+    bool finite, moving, motion; /* options: card with edges, with mass, with a curve */
+    int id;                      /* 0 without _ID */
+    char title[BILLOW_TITLE_LENGTH];
+    int nsid, nsidex, boxid;
+    double offset, birth, death, rwksf;
+    double tail[3], head[3], fric, wvel;
+    double edge[3], lenl, lenm, lenp; /* edge: head of the vector l, whose tail is that of n */
+    double radius, lencyl;
+    double mass, v0;
+    int lcid, opt;
+    double v[3];
+    Source source, plane_source, edge_source, moving_source;
+} RigidWallDefinition;
+
 /* Everything of one deck. Zero-initialise, fill with deck_read (io/read.h), free with definitions_free. */
 typedef struct Definitions {
     char title[BILLOW_TITLE_LENGTH];
     bool incomplete; /* a reader reported an error, so records may be missing: "X is not defined" would be its echo */
     LIST(NodeDefinition) nodes;
     LIST(ShellDefinition) shells;
+    size_t face_count; /* the last so many shells are faces of solids */
+    LIST(SolidDefinition) solids;
+    LIST(SectionSolidDefinition) solid_sections;
+    LIST(BeamDefinition) beams;
+    LIST(SectionBeamDefinition) beam_sections;
+    LIST(DiscreteDefinition) discretes;
+    LIST(SectionDiscreteDefinition) discrete_sections;
     LIST(PartDefinition) parts;
     LIST(SectionShellDefinition) sections;
     LIST(MaterialDefinition) materials;
@@ -406,6 +513,10 @@ typedef struct Definitions {
     LIST(AirbagDefinition) airbags;
     LIST(InteractionDefinition) interactions;
     LIST(PorosityDefinition) porosities;
+    LIST(RigidWallDefinition) walls;
+    LIST(RigidMergeDefinition) merges;
+    LIST(ExtraNodesDefinition) extra_nodes;
+    LIST(NodalRigidBodyDefinition) nodal_bodies;
 } Definitions;
 
 void definitions_free(Definitions *definitions);

@@ -14,7 +14,9 @@
 #include "airbag/connection.h"
 #include "airbag/gas.h"
 #include "airbag/surface.h"
+#include "contact/rigid_wall.h"
 #include "elements/law.h"
+#include "elements/link.h"
 #include "solver/billow.h"
 #include "solver/constraints.h"
 #include "solver/curve.h"
@@ -74,6 +76,13 @@ typedef struct Part {
     double density, thickness;
 } Part;
 
+/* A solid of a rigid part: a share of its mass at each corner. */
+typedef struct Solid {
+    int part;
+    int32_t node[8];
+    double share[8]; /* [M] */
+} Solid;
+
 /* One control volume. */
 typedef struct Airbag {
     int id; /* the user's, or counted from 1 in deck order */
@@ -126,6 +135,11 @@ typedef struct Model {
     double *element_thickness; /* (element_count) [L] */
     double *element_mass;      /* (element_count) [M] */
 
+    int solid_count;
+    Solid *solids;
+    int link_count;
+    Link *links; /* springs, cables, trusses: elements/link.h */
+
     int group_count, chunk_count, padded_count;
     ElementGroup *groups;
     size_t history_size; /* doubles */
@@ -161,6 +175,9 @@ typedef struct Model {
     Constraints constraints;    /* supports, prescribed motion, hanging nodes: solver/constraints.h */
     int rigid_body_count;
     RigidBody *rigid_bodies; /* moving ones, solver/rigid_body.h */
+    int wall_count;
+    RigidWall *walls;      /* contact/rigid_wall.h */
+    bool has_moving_walls; /* some wall has a mass: the nodes' momentum moves it */
 
     double end_time, step_scale, step_initial, step_minimum; /* ENDTIM, TSSFAC, DTINIT, DTMIN */
     bool caps_push_rim;                                      /* hole caps give their pressure force to their rim */

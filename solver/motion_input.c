@@ -11,6 +11,18 @@ int motion_no_memory(const char *keyword, Diagnostics *diagnostics)
     return -1;
 }
 
+int motion_find_body(const MotionInput *input, const Motion *motion, int id)
+{
+    const Definitions *d = input->index->definitions;
+    int32_t part = id_map_find(&input->index->parts, id);
+    if (part >= 0) return motion->part_body[part];
+    for (int b = 0; b < motion->rigid_body_count; b++)
+        if (motion->rigid_bodies[b].nodal && motion->rigid_bodies[b].part_id == id) return b;
+    for (size_t k = 0; k < d->nodal_bodies.count; k++)
+        if (d->nodal_bodies.items[k].id == id) return MOTION_FIXED;
+    return -3;
+}
+
 int32_t motion_find_node(const MotionInput *input, int id, const char *field, Source source, const char *keyword,
                          Diagnostics *diagnostics)
 {

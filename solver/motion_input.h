@@ -16,6 +16,21 @@ static inline bool motion_ready(const Motion *motion)
 /* Reports that memory is short; returns -1. */
 int motion_no_memory(const char *keyword, Diagnostics *diagnostics);
 
+/* The material of a part (deck index) if it is rigid, else NULL. */
+const MaterialDefinition *rigid_material(const MotionInput *input, int32_t part);
+
+/* lead[p]: the part whose body part p belongs to after *CONSTRAINED_RIGID_BODIES (solver/build_merges.c). 0, or -1
+ * after an error. */
+int rigid_merges_resolve(const MotionInput *input, int32_t *lead, Diagnostics *diagnostics);
+
+/* Puts the mass, centre, inertia and initial motion of the body's card, if it has one, in place of those of its nodes;
+ * offset must be allocated (solver/build_inertia.c). 1 if it had one, 0 if not, -1 after an error. */
+int rigid_inertia_apply(const MotionInput *input, RigidBody *body, Diagnostics *diagnostics);
+
+/* Body of a rigid part or nodal rigid body by the user's id: its index, MOTION_FIXED, MOTION_DEFORMABLE, or -3 if there
+ * is neither a part nor a body of this id. */
+int motion_find_body(const MotionInput *input, const Motion *motion, int id);
+
 /* Index of node id, or -1 after an error naming the field. */
 int32_t motion_find_node(const MotionInput *input, int id, const char *field, Source source, const char *keyword,
                          Diagnostics *diagnostics);

@@ -155,7 +155,7 @@ ALWAYS_INLINE void integrate_pack(int terms, const CyclePlan *plan, const NodeCh
     }
     Pack full = old + (0.5 * plan->dt_before) * a;
     *(LoosePack *)at->v = now;
-    *(LoosePack *)at->x = loose_load(at->x) + (plan->emit ? 0.0 : plan->dt_next) * now;
+    *(LoosePack *)at->x = loose_load(at->x) + plan->node_advance * now;
     if (terms & SEVERAL_PRESSURES) {
         sums->bag_before[lane] += bag * (s * old);
         sums->bag_after[lane] += bag * (s * now);

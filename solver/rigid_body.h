@@ -9,7 +9,10 @@
 
 /* Immutable. Built by rigid_body_build; arrays owned by the Model. */
 typedef struct RigidBody {
-    int part_id; /* user's id of the part */
+    int part_id; /* user's id of the part, of the lead of merged ones, or of the nodal rigid body */
+    bool nodal;  /* of *CONSTRAINED_NODAL_RIGID_BODY: no part of that id need be there */
+    bool merged; /* of several parts, or with nodes of other parts */
+    bool given;  /* mass, centre and inertia are those of a card, not of the nodes */
     int node_count;
     int32_t *node;     /* internal indices, ascending (node_count) */
     double *offset;    /* from the centre of mass, along the principal axes, at time 0 (node_count x 3) [L] */
@@ -75,6 +78,11 @@ typedef struct RigidWork {
 /* Mass, centre, principal inertia and offsets of body->node from nodal masses and positions (x: .. x 3). Returns 0; -1
  * without memory; 1 if the nodes have no mass. */
 int rigid_body_build(RigidBody *body, const double *x, const double *mass);
+
+/* Mass, centre and inertia tensor (global axes, about the centre) of a card in place of those of the nodes. Returns 0;
+ * 1 if the tensor is none of a body: a principal moment is negative or larger than the sum of the others. */
+int rigid_body_give_inertia(RigidBody *body, const double *x, double mass, const double centre[3],
+                            const double tensor[9]);
 
 /* Initial state from body->velocity and spin; constrained components start at rest. */
 void rigid_body_start(const RigidBody *body, RigidState *state);

@@ -73,6 +73,15 @@ static void sum_mass(RigidBody *body, const double *x, const double *mass)
     for (int i = 0; i < 3; i++) body->centre[i] = base[i] + (body->mass > 0 ? moment[i] / body->mass : 0);
 }
 
+static void place_nodes(RigidBody *body, const double *x)
+{
+    for (int k = 0; k < body->node_count; k++) {
+        double r[3];
+        vector3_subtract(x + 3 * (size_t)body->node[k], body->centre, r);
+        matrix3_apply(body->axes, r, body->offset + 3 * (size_t)k);
+    }
+}
+
 int rigid_body_build(RigidBody *body, const double *x, const double *mass)
 {
     if (body->node_count <= 0) return 1;
@@ -91,10 +100,23 @@ int rigid_body_build(RigidBody *body, const double *x, const double *mass)
         }
     }
     principal_axes(tensor, body->axes, body->inertia);
-    for (int k = 0; k < body->node_count; k++) {
-        double r[3];
-        vector3_subtract(x + 3 * (size_t)body->node[k], body->centre, r);
-        matrix3_apply(body->axes, r, body->offset + 3 * (size_t)k);
-    }
+    place_nodes(body, x);
+    return 0;
+}
+
+int rigid_body_give_inertia(RigidBody *body, const double *x, double mass, const double centre[3],
+                            const double tensor[9])
+{
+    double copy[9];
+    memcpy(copy, tensor, sizeof copy);
+    body->given = true;
+    body->mass = mass;
+    memcpy(body->centre, centre, sizeof body->centre);
+    principal_axes(copy, body->axes, body->inertia);
+    place_nodes(body, x);
+    const double *moment = body->inertia;
+    double sum = moment[0] + moment[1] + moment[2];
+    for (int i = 0; i < 3; i++)
+        if (copy[4 * i] < 0 || 2 * moment[i] > sum * (1 + 1e-9)) return 1;
     return 0;
 }

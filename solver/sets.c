@@ -93,6 +93,28 @@ static void mark_shell(Resolution *r, int32_t shell, unsigned char value)
     }
 }
 
+static void mark_node(Resolution *r, int id, unsigned char value)
+{
+    int32_t node = id_map_find(&r->index->nodes, id);
+    if (node >= 0) r->mark[node] = value;
+}
+
+/* Nodes of a part's solids, inner ones too, beams and springs. */
+static void mark_other_elements(Resolution *r, int32_t part, unsigned char value)
+{
+    const Definitions *d = r->index->definitions;
+    int id = d->parts.items[part].id;
+    for (size_t e = 0; e < d->beams.count; e++)
+        for (int k = 0; d->beams.items[e].part == id && k < 2; k++) mark_node(r, d->beams.items[e].node[k], value);
+    for (size_t e = 0; e < d->discretes.count; e++)
+        for (int k = 0; d->discretes.items[e].part == id && k < 2; k++)
+            mark_node(r, d->discretes.items[e].node[k], value);
+    for (size_t s = 0; s < d->solids.count; s++) {
+        if (d->solids.items[s].part != id) continue;
+        for (int k = 0; k < 8; k++) mark_node(r, d->solids.items[s].node[k], value);
+    }
+}
+
 static void mark_part(Resolution *r, int32_t part, unsigned char value)
 {
     if (r->kind->kind == SET_PART) {
@@ -101,6 +123,7 @@ static void mark_part(Resolution *r, int32_t part, unsigned char value)
     }
     for (int32_t k = r->index->part_shell_start[part]; k < r->index->part_shell_start[part + 1]; k++)
         mark_shell(r, r->index->part_shell[k], value);
+    if (r->kind->kind == SET_NODE) mark_other_elements(r, part, value);
 }
 
 static void mark_box(Resolution *r, const BoxDefinition *box, unsigned char value)

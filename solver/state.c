@@ -6,6 +6,7 @@
 
 #include "elements/kernels.h"
 #include "solver/memory.h"
+#include "solver/step_links.h"
 
 /* Hands out aligned pieces of the buffer; with a NULL base it only counts. */
 static void *take(unsigned char *base, size_t *used, size_t bytes)
@@ -34,6 +35,9 @@ static size_t lay_out(const Model *model, State *state)
     size_t shares = model->blockage ? (size_t)model->element_count : 0;
     state->contact_share = take(base, &used, shares * sizeof *state->contact_share);
     state->rigid = take(base, &used, (size_t)model->rigid_body_count * sizeof *state->rigid);
+    state->link_energy = take(base, &used, (size_t)model->link_count * sizeof *state->link_energy);
+    state->wall = take(base, &used, (size_t)model->wall_count * sizeof *state->wall);
+    state->wall_side = take(base, &used, (size_t)model->wall_count * (size_t)model->moving_count);
     return (used + 63) / 64 * 64;
 }
 
@@ -103,6 +107,16 @@ static void start_energies(const Model *model, State *state)
         const double *v = state->v + 3 * (ptrdiff_t)i;
         e->kinetic += 0.5 * model->mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     }
+    for (int b = 0; b < model->rigid_body_count; b++) { /* a body's inertia may be a card's */
+        const RigidBody *body = &model->rigid_bodies[b];
+        for (int k = 0; k < body->node_count; k++) {
+            const double *v = state->v + 3 * (ptrdiff_t)body->node[k];
+            e->kinetic -= 0.5 * model->mass[body->node[k]] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        }
+        e->kinetic += state->rigid[b].kinetic;
+    }
+    for (int w = 0; w < model->wall_count; w++)
+        e->kinetic += 0.5 * model->walls[w].mass * model->walls[w].speed * model->walls[w].speed;
     for (int p = 0; p < model->part_count; p++) e->internal += state->part_energy[p];
     e->initial = e->kinetic + e->internal;
     e->largest = fabs(e->initial);
@@ -118,10 +132,12 @@ int state_create(const Model *model, State *state)
     memcpy(state->x, model->initial, 3 * (size_t)model->node_count * sizeof *state->x);
     memcpy(state->v, model->velocity, 3 * (size_t)model->node_count * sizeof *state->v);
     for (int i = 0; i < model->rigid_body_count; i++) rigid_body_start(&model->rigid_bodies[i], &state->rigid[i]);
+    for (int i = 0; i < model->wall_count; i++) state->wall[i].speed = model->walls[i].speed;
     if (start_gas(model, state)) {
         state_free(state);
         return -1;
     }
+    links_act(model, state, NULL);
     start_energies(model, state);
     return 0;
 }

@@ -106,12 +106,18 @@ static int allocate(Workspace *w)
     w->drag = memory_alloc(3 * special + 1, sizeof(double));
     w->newton = memory_alloc(3 * special + 1, sizeof(double));
     w->gas_pass = memory_alloc(((size_t)w->node_chunk_count + 1) * bags, sizeof *w->gas_pass);
+    size_t walls = (size_t)m->wall_count;
+    w->walls = memory_alloc(walls + 1, sizeof *w->walls);
+    w->wall_sums = memory_alloc(walls * ((size_t)w->node_chunk_count + 1) + 1, sizeof *w->wall_sums);
+    w->wall_pending = memory_alloc(m->has_moving_walls ? (size_t)m->moving_count + 1 : 1, 1);
+    w->wall_force = memory_alloc(4 * walls + 1, sizeof(double));
     void *needed[] = {w->rows,          w->chunks,         w->node_sums,    w->bag_pressure,    w->load_pressure,
                       w->stagnation,    w->set_volume,     w->set_area,     w->source_pressure, w->class_gravity,
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
-                      w->newton,        w->group_area,     w->part_area,    w->part_blocked,    w->fluid_volume};
+                      w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
+                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
     return 0;
@@ -124,7 +130,8 @@ static void release(Workspace *w)
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
-                      w->newton,        w->group_area,     w->part_area,    w->part_blocked,    w->fluid_volume};
+                      w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
+                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
 }
 
@@ -184,11 +191,15 @@ static void loop(void *context, int thread, Team *team)
             if (thread == 0) step_gas_implicit(w);
             team_barrier(team);
         }
-        if (thread == 0) step_special(w);
+        if (thread == 0 && !w->model->has_moving_walls) step_special(w);
         times->special += lap(&since);
         step_nodes(w, thread, threads);
         times->nodes += lap(&since);
         team_barrier(team);
+        if (w->model->has_moving_walls) { /* their speed follows from all nodes that meet them */
+            if (thread == 0) step_special(w);
+            team_barrier(team);
+        }
         times->waiting += lap(&since);
         if (!w->plan.emit) continue;
         if (thread == 0) step_emit(w);

@@ -15,6 +15,7 @@ typedef struct StepView {
     const double *f;             /* total nodal forces at t_n (node_count x 3) */
     const double *part_kinetic;  /* kinetic energy of each part at t_n (part_count) */
     const double *part_momentum; /* (part_count x 3) */
+    const double *wall_force;    /* force of each wall on the nodes at t_n and its normal part (wall_count x 4) */
     double element_step;         /* stable step of the elements before TSSFAC */
     int critical_element;        /* deck-order index of the element with the smallest step, -1 none */
 } StepView;

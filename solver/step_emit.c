@@ -21,6 +21,21 @@ static void sum_parts(Workspace *w)
             for (int k = 0; k < 3; k++) w->part_momentum[3 * part + k] += share * v[k];
         }
     }
+    for (int i = 0; i < m->solid_count; i++) {
+        const Solid *solid = &m->solids[i];
+        for (int a = 0; a < 8; a++) {
+            const double *v = w->velocity + 3 * (ptrdiff_t)solid->node[a];
+            w->part_kinetic[solid->part] += 0.5 * solid->share[a] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+            for (int k = 0; k < 3; k++) w->part_momentum[3 * solid->part + k] += solid->share[a] * v[k];
+        }
+    }
+    for (int p = 0; p < m->part_count; p++) { /* what a card gives goes before what the nodes have */
+        int b = m->parts[p].rigid_body;
+        if (b < 0 || !m->rigid_bodies[b].given || m->rigid_bodies[b].part_id != m->parts[p].id) continue;
+        w->part_kinetic[p] = w->state->rigid[b].kinetic;
+        for (int k = 0; k < 3; k++)
+            w->part_momentum[3 * p + k] = m->rigid_bodies[b].mass * w->state->rigid[b].output.v[k];
+    }
 }
 
 /* The element with the largest frequency: its chunk is run once more, its histories kept. */
@@ -64,12 +79,14 @@ void step_emit(Workspace *w)
     const Model *m = w->model;
     if (!w->failure->failed) step_close_energies(w);
     sum_parts(w);
+    if (m->wall_count > 0) step_walls_forces(w);
     StepView view = {.x = w->state->x,
                      .v = w->velocity,
                      .a = w->acceleration,
                      .f = w->force,
                      .part_kinetic = w->part_kinetic,
                      .part_momentum = w->part_momentum,
+                     .wall_force = w->wall_force,
                      .element_step = w->element_step,
                      .critical_element = find_critical(w)};
     w->plan.stop = w->hooks->emit(w->hooks->user, m, w->state, &view, w->plan.last) != 0;

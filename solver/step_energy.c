@@ -19,6 +19,7 @@ static NodeSums sum_nodes(const Workspace *w)
         t.support_before += s->support_before;
         t.support_after += s->support_after;
         t.compliance += s->compliance;
+        t.stopped += s->stopped;
     }
     return t;
 }
@@ -50,8 +51,8 @@ void step_close_energies(Workspace *w)
     double held = e->kinetic + e->internal + e->hourglass + e->damping + e->contact;
     double given = e->initial + e->external_work + e->airbag_work;
     double parts[] = {e->kinetic,           fabs(e->internal), e->damping, fabs(e->external_work),
-                      fabs(e->airbag_work), fabs(given)};
-    for (int i = 0; i < 6; i++) e->largest = parts[i] > e->largest ? parts[i] : e->largest;
+                      fabs(e->airbag_work), fabs(given),       t.stopped};
+    for (int i = 0; i < 7; i++) e->largest = parts[i] > e->largest ? parts[i] : e->largest;
     w->closed = true;
     if (!isfinite(held) || !isfinite(given)) {
         step_fail(w, "look at the last state written; lower TSSFAC, or check loads there", "an energy is not finite");

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "solver/step_links.h"
 #include "solver/workspace.h"
 
 /* Chunk sums -> parts and pressure sets, in chunk order. Laws with a stored energy give its value, those with a
@@ -136,8 +137,13 @@ static int choose_step(Workspace *w, double rate)
                   "forces or positions are not finite");
         return -1;
     }
+    if (m->link_count > 0) rate += links_rate(m, w->state->x);
     w->element_step = rate > 0.0 ? 2.0 / sqrt(rate) : 0.0;
-    double step = m->deformable_count > 0 && rate > 0.0 ? m->step_scale * 2.0 / sqrt(rate) : gas_step(w, gas_rate);
+    double step = rate > 0.0 ? m->step_scale * 2.0 / sqrt(rate) : 0.0;
+    if (!(m->deformable_count > 0 && step > 0.0)) {
+        double slow = gas_step(w, gas_rate);
+        step = step > 0.0 && step < slow ? step : slow;
+    }
     if (clock->cycle == 0 && m->step_initial > 0.0 && m->step_initial < step) step = m->step_initial;
     if (m->step_limit_curve >= 0) {
         double limit = curve_value(&m->curves[m->step_limit_curve], clock->time);
@@ -176,6 +182,8 @@ void step_gas(Workspace *w)
     if (choose_step(w, rate)) return;
     w->plan.dt_mean = 0.5 * (w->plan.dt_before + w->plan.dt_next);
     w->plan.emit = w->hooks->due(w->hooks->user, m, w->state, w->plan.last) || w->plan.last;
+    w->plan.node_advance = w->plan.emit || m->wall_count > 0 ? 0.0 : w->plan.dt_next;
     w->closed = w->plan.emit;
+    if (m->wall_count > 0) step_walls_begin(w);
     if (!w->plan.emit) step_tick(w);
 }

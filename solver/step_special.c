@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/step_links.h"
 #include "solver/workspace.h"
 
 /* Forces of the special nodes; stress, bag and load pressure on the velocities before the step for the ledger. */
@@ -132,16 +133,21 @@ void step_special(Workspace *w)
     NodeSums *t = &w->node_sums[w->node_chunk_count];
     ptrdiff_t first = 3 * (ptrdiff_t)m->free_count, count = 3 * (ptrdiff_t)(m->moving_count - m->free_count);
     *t = (NodeSums){0};
-    if (count == 0) return;
+    if (count == 0) {
+        if (m->has_moving_walls) step_walls_special(w, t);
+        return;
+    }
     memcpy(w->before + first, state->v + first, (size_t)count * sizeof *state->v);
     gather_special(w, t, false);
     push_rims(w);
+    links_act(m, state, w->force);
     loads_apply_points(&m->loads, m->curves, plan->time, state->x, w->force);
     constraints_fold_forces(&m->constraints, w->force);
     accelerate(w);
     memcpy(w->newton, state->v + first, (size_t)count * sizeof *w->newton);
     constraints_apply(&m->constraints, m->curves, plan->time, plan->dt_mean, plan->dt_next, state->x, m->initial,
                       m->mass, w->before, state->v, NULL);
+    if (m->wall_count > 0) step_walls_special(w, t);
     move_rigid_bodies(w, t);
     constraints_place_hanging(&m->constraints, state->v);
     t->reaction += loads_points_work(&m->loads, m->curves, plan->time, state->x, w->before, state->v, plan->dt_mean);

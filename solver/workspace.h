@@ -30,6 +30,7 @@ typedef struct NodeSums {
     double load_before, load_after; /* segment loads, point loads and gravity likewise */
     double damping;                 /* energy taken out by mass damping in this step */
     double support_before, support_after; /* impulse of supports and prescribed motion on v at n - 1/2 and n + 1/2 */
+    double stopped;                       /* m |v+ - v*|^2 / 2 of what walls do in this cycle: a scale, no term */
     double reaction;                      /* work of point loads and on rigid bodies in this step */
     double compliance;                    /* sum of |s|^2 / m, s the area vector of the node */
 } NodeSums;
@@ -44,8 +45,23 @@ typedef struct GasPass {
 typedef struct CyclePlan {
     double time, dt_before, dt_mean, dt_next;
     bool emit, last, stop;
+    double node_advance; /* step by which the node loops move positions: 0 when emitting, and when walls come after */
     bool implicit_gas; /* the gas is stiffer than the step resolves: its pressure is taken at the step's mean volume */
 } CyclePlan;
+
+/* A wall in the present cycle. */
+typedef struct WallPlan {
+    bool acts, fresh;   /* fresh: its first cycle, sides of nodes are not known yet */
+    double origin[3];   /* at t_{n+1}; of a wall with mass as if nothing pushed it */
+    double before[3];   /* origin at t_n */
+    double velocity[3]; /* of the wall over the step */
+} WallPlan;
+
+/* Impulse of one wall on one chunk of nodes in this cycle. */
+typedef struct WallSums {
+    double impulse[3]; /* [force x time] */
+    double normal;     /* sum of the normal parts */
+} WallSums;
 
 typedef struct Workspace {
     const Model *model;
@@ -78,6 +94,10 @@ typedef struct Workspace {
     double *kept_history; /* of one chunk */
     int critical_chunk, critical_group; /* with the largest frequency of this cycle */
     GasPass *gas_pass;                  /* partial sums of the implicit gas (node chunks + 1) x (airbag_count) */
+    WallPlan *walls;                    /* (wall_count) */
+    WallSums *wall_sums;                /* (node chunks + 1) x (wall_count) */
+    unsigned char *wall_pending;        /* 1: a wall with mass decides on this node (moving_count) */
+    double *wall_force;                 /* force of each wall on the nodes and its normal part (wall_count x 4) */
     bool general;                       /* body classes or stagnation pressure: the general node loop */
     bool closed;                        /* energies of the last cycle are in the ledger */
     double element_step;                /* stable step of the elements before TSSFAC */
@@ -93,21 +113,26 @@ typedef struct NodeKernels {
 extern const NodeKernels node_kernels_v2, node_kernels_v3, node_kernels_v4;
 
 /* Phases of the cycle. */
-void step_elements(Workspace *w, int thread, int threads);             /* all threads */
 int step_bags(Workspace *w);                                           /* thread 0: gas of all bags to t_n; -1 failed */
 double step_fluid_volume(const Workspace *w, int bag, double level);   /* of FLUID_AND_GAS below a level, times VSCA */
 void step_fluid_settle(Workspace *w, int bag);                         /* the level of its volume */
 double step_hydrostatic(const Workspace *w, int set, const double *x); /* its pressure at a place, on a pressure set */
 double step_bags_scale(const Workspace *w);                            /* a step that resolves the gas by itself */
+void step_elements(Workspace *w, int thread, int threads);             /* all threads */
 void step_gas(Workspace *w);                                           /* thread 0: sums, gas, pressures, next step */
 void step_gas_pass(Workspace *w, int thread, int threads);             /* all threads: sums of the implicit gas */
 void step_gas_implicit(Workspace *w);                                  /* thread 0: pressures at the mean volume */
 void step_nodes(Workspace *w, int thread, int threads);                /* all threads: free nodes */
 void step_special(Workspace *w);                                       /* thread 0: special nodes */
+void step_walls_begin(Workspace *w);                                   /* thread 0: where the walls are */
+void step_walls_special(Workspace *w, NodeSums *sums);                 /* thread 0: special nodes; walls with mass */
+void step_walls_forces(Workspace *w);                                  /* thread 0: sums for the writers */
 void step_tick(Workspace *w);                                          /* thread 0: the clock moves on */
 void step_emit(Workspace *w);                                          /* thread 0: full-step view to the hooks */
 void step_advance_positions(Workspace *w, int thread, int threads);    /* all threads, after an emitting cycle */
 void step_close_energies(Workspace *w);                                /* thread 0: ledger at t_n */
+/* All threads: free nodes [first, end) of one chunk, after their node loop; before: their velocities at n - 1/2. */
+void step_walls_chunk(Workspace *w, int chunk, int first, int end, const double *before, NodeSums *sums);
 void step_fail(Workspace *w, const char *advice, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 #endif

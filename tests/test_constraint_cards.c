@@ -272,7 +272,7 @@ static void bad_rigid_parts_are_refused(void **unused)
         static const char *const words[] = {"COUPLE", "ALIAS", "CON1 = 9", "CON2 = 200000", "share node 30", "node 50"};
         const int lines[] = {81, 81, 81, 81, 72, 90};
         assert_int_equal(deck_build(&deck), -1);
-        deck_expect_error(&deck, lines[k], words[k], k == 4 ? "rigid parts 100 and 200" : NULL);
+        deck_expect_error(&deck, lines[k], words[k], k == 4 ? "rigid bodies 100 and 200" : NULL);
         deck_end(&deck);
     }
 }

@@ -104,14 +104,49 @@ static void make_bounce(Scene *scene)
     scene_end(deck, mesh);
 }
 
+/* A sheet thrown on a slope with friction and a sphere, beside a wall with mass; a rigid block hangs on it by cables.
+ */
+static void make_walls(Scene *scene)
+{
+    SceneText *deck = &scene->deck;
+    SceneMesh *mesh = &scene->mesh;
+    SceneFabric fabric = scene_isotropic(0, true, 800, 3e8, 0.3);
+    deck->exact = true;
+    scene_begin(deck, "walls", 0.02, 0.9);
+    scene_write_part(deck, 1, 1, 1, "sheet");
+    scene_write_section(deck, 1, 9, 4e-4);
+    scene_write_fabric(deck, 1, &fabric);
+    scene_write_part(deck, 2, 2, 2, "block");
+    scene_write_rigid(deck, 2, 500, 0, 0);
+    scene_write_part(deck, 3, 3, 3, "cables");
+    scene_print(deck, "*SECTION_SOLID\n2\n*SECTION_BEAM\n3,6\n1e-6,,,1e-5,-.01\n*MAT_CABLE_DISCRETE_BEAM\n3,1e3,1e9\n"
+                      "*INITIAL_VELOCITY\n0\n3,0,-20\n*RIGIDWALL_PLANAR\n0\n0,0,-.02,.3,0,.98,.3\n"
+                      "*RIGIDWALL_PLANAR_MOVING\n0\n.8,0,0,-.2,0,.2,.2\n.02,1\n*RIGIDWALL_GEOMETRIC_SPHERE\n0\n"
+                      ".3,.3,-.21,.3,.3,1\n.2\n");
+    scene_add_rectangle(mesh, 1, SCENE_DIAGONAL, 24, 24, 0.6, 0.6);
+    int corner[2] = {1, mesh->node_count}, block[8];
+    for (int i = 0; i < 8; i++)
+        block[i] = 1 + scene_add_node(mesh, 0.25 + 0.1 * (i % 4 == 1 || i % 4 == 2), 0.25 + 0.1 * (i % 4 >= 2),
+                                      0.1 + 0.1 * (i >= 4));
+    scene_print(deck, "*ELEMENT_SOLID\n1,2,%d,%d,%d,%d,%d,%d,%d,%d\n*ELEMENT_BEAM\n1,3,%d,%d\n2,3,%d,%d\n", block[0],
+                block[1], block[2], block[3], block[4], block[5], block[6], block[7], corner[0], block[0], corner[1],
+                block[2]);
+    scene_end(deck, mesh);
+}
+
 static const struct DeterminismCase {
     const char *name;
     void (*make)(Scene *scene);
     bool one_point;
-} cases[] = {{"triangles", make_triangles, false},  {"triangles, Green", make_green_triangles, false},
-             {"quads", make_quads, false},          {"quads, Green", make_green_quads, false},
-             {"one-point quads", make_quads, true}, {"one-point quads, Green", make_green_quads, true},
-             {"rigid bodies", make_bounce, false},  {"driver bag", NULL, false}};
+} cases[] = {{"triangles", make_triangles, false},
+             {"triangles, Green", make_green_triangles, false},
+             {"quads", make_quads, false},
+             {"quads, Green", make_green_quads, false},
+             {"one-point quads", make_quads, true},
+             {"one-point quads, Green", make_green_quads, true},
+             {"rigid bodies", make_bounce, false},
+             {"walls and cables", make_walls, false},
+             {"driver bag", NULL, false}};
 enum { CASE_COUNT = sizeof cases / sizeof cases[0] };
 
 static int print_hashes(int threads)

@@ -1,0 +1,24 @@
+/* Forces and energies of links. Equations (K1) to (K5) of docs/theory.md. */
+#include "elements/link.h"
+
+#include "solver/elementary.h"
+
+double link_tension(const Link *link, double length, double *energy)
+{
+    if (link->logarithmic) {
+        double strain = elementary_log(length / link->length);
+        *energy = link->stiffness * (length * strain - length + link->length);
+        return link->stiffness * strain;
+    }
+    double tension = link->preload + link->stiffness * (length - link->length);
+    if (link->tension_only && tension < 0.0) tension = 0.0;
+    *energy = 0.5 * tension * tension / link->stiffness;
+    return tension;
+}
+
+double link_rate(const Link *link, double length, double tension)
+{
+    double along = link->logarithmic ? link->stiffness / length : link->stiffness;
+    double across = length > 0.0 ? tension / length : 0.0;
+    return (along > across ? along : across) * (link->inverse[0] + link->inverse[1]);
+}
