@@ -29,7 +29,9 @@ int geometry_size(ElementKind kind, LawKind law)
 {
     if (law == LAW_SURFACE) return 1;
     return point_count(kind) * GEOMETRY_POINT_SIZE + GEOMETRY_TAIL_SIZE +
-           (kind == ELEMENT_QUAD_ONE ? GEOMETRY_HOURGLASS_SIZE : 0);
+           (kind == ELEMENT_QUAD_ONE                       ? GEOMETRY_HOURGLASS_SIZE
+            : kind == ELEMENT_QUAD_FULL && law == LAW_BIOT ? GEOMETRY_SKEW_SIZE
+                                                           : 0);
 }
 
 /* Tangents dX/d(natural) at a point; for triangles the two edges. */
@@ -82,6 +84,59 @@ static GeometryStatus material_axes(const ElementInput *input, const double *t1,
     return GEOMETRY_OK;
 }
 
+/* Reference hourglass vector of a quad in natural directions (skew), the squared lengths of its mean tangents and of
+ * what is left of the vector, q (eq. E15, E16). */
+static void hourglass_geometry(const double *x, double skew[2], double *aa, double *bb, double *qq)
+{
+    double a[3], b[3], h[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = 0.25 * ((x[3 + k] - x[k]) + (x[6 + k] - x[9 + k]));
+        b[k] = 0.25 * ((x[9 + k] - x[k]) + (x[6 + k] - x[3 + k]));
+        h[k] = 0.25 * ((x[k] - x[3 + k]) + (x[6 + k] - x[9 + k]));
+    }
+    double ab = dot(a, b), ha = dot(h, a), hb = dot(h, b);
+    *aa = dot(a, a);
+    *bb = dot(b, b);
+    double det = *aa * *bb - ab * ab;
+    skew[0] = (ha * *bb - hb * ab) / det;
+    skew[1] = (hb * *aa - ha * ab) / det;
+    for (int k = 0; k < 3; k++) h[k] -= skew[0] * a[k] + skew[1] * b[k];
+    *qq = dot(h, h);
+}
+
+/* Has the metric a term of its own in q.q (eq. E4a)? */
+static bool has_fold(const ElementInput *input)
+{
+    return input->kind == ELEMENT_QUAD_FULL && input->law && input->law->free_fold;
+}
+
+/* What a unit of q.q adds to the metric of a quad's point, as M^T E M in material axes (11, 22, 12) (eq. E4a). */
+static void fold_metric(int point, const double m[4], double e[3])
+{
+    const double more = 2.0 / 3.0, shear = point % 2 == 0 ? -4.0 / 3.0 : -2.0 / 3.0; /* -(1 + xi eta) */
+    e[0] = more * (m[0] * m[0] + m[2] * m[2]) + 2.0 * shear * m[0] * m[2];
+    e[1] = more * (m[1] * m[1] + m[3] * m[3]) + 2.0 * shear * m[1] * m[3];
+    e[2] = more * (m[0] * m[1] + m[2] * m[3]) + shear * (m[0] * m[3] + m[1] * m[2]);
+}
+
+/* Of a quad that is warped in its reference: M becomes M C^-1/2, so that C is the unit tensor there. */
+static GeometryStatus free_of_warp(const ElementInput *input, int point, double m[4])
+{
+    double skew[2], aa, bb, qq, e[3];
+    hourglass_geometry(input->x, skew, &aa, &bb, &qq);
+    fold_metric(point, m, e);
+    double c11 = 1.0 + qq * e[0], c22 = 1.0 + qq * e[1], c12 = qq * e[2], det = c11 * c22 - c12 * c12;
+    if (!(det > 0.0) || !(c11 > 0.0)) return GEOMETRY_INVERTED;
+    double j = sqrt(det), inverse = 1.0 / (j * sqrt(c11 + c22 + 2.0 * j));
+    double u11 = (c22 + j) * inverse, u22 = (c11 + j) * inverse, u12 = -c12 * inverse;
+    for (int i = 0; i < 4; i += 2) {
+        double m1 = m[i] * u11 + m[i + 1] * u12, m2 = m[i] * u12 + m[i + 1] * u22;
+        m[i] = m1;
+        m[i + 1] = m2;
+    }
+    return GEOMETRY_OK;
+}
+
 /* One point's M and its area factor: |dX/d(natural)| times the natural weight. */
 static GeometryStatus point_geometry(const ElementInput *input, int point, double m[4], double *area)
 {
@@ -98,7 +153,7 @@ static GeometryStatus point_geometry(const ElementInput *input, int point, doubl
     m[3] = j11 / det;
     double natural = input->kind == ELEMENT_TRIANGLE ? 0.5 : input->kind == ELEMENT_QUAD_FULL ? 1.0 : 4.0;
     *area = natural * det;
-    return GEOMETRY_OK;
+    return has_fold(input) ? free_of_warp(input, point, m) : GEOMETRY_OK;
 }
 
 /* Normals of a quad's four corners must all lie on the side of its mean normal. */
@@ -171,23 +226,6 @@ static void add_point_stiffness(int corners, double (*g)[2], const PlaneModuli *
     }
 }
 
-/* Reference hourglass vector of a quad in natural directions (skew) and the squared lengths of its mean tangents. */
-static void hourglass_geometry(const double *x, double skew[2], double *aa, double *bb)
-{
-    double a[3], b[3], h[3];
-    for (int k = 0; k < 3; k++) {
-        a[k] = 0.25 * ((x[3 + k] - x[k]) + (x[6 + k] - x[9 + k]));
-        b[k] = 0.25 * ((x[9 + k] - x[k]) + (x[6 + k] - x[3 + k]));
-        h[k] = 0.25 * ((x[k] - x[3 + k]) + (x[6 + k] - x[9 + k]));
-    }
-    double ab = dot(a, b), ha = dot(h, a), hb = dot(h, b);
-    *aa = dot(a, a);
-    *bb = dot(b, b);
-    double det = *aa * *bb - ab * ab;
-    skew[0] = (ha * *bb - hb * ab) / det;
-    skew[1] = (hb * *aa - ha * ab) / det;
-}
-
 /* In-plane hourglass energy 1/2 (c1 (q.a)^2 + c2 (q.b)^2), c = QH d weight / (3 |a|^4) (eq. E18). */
 static void hourglass_moduli(const FabricLaw *law, double weight, double aa, double bb, double c[2])
 {
@@ -198,8 +236,8 @@ static void hourglass_moduli(const FabricLaw *law, double weight, double aa, dou
 /* Adds the hourglass stiffness: r1 = q.a, with dq = dh - skew1 da - skew2 db. */
 static void add_hourglass_stiffness(const ElementInput *input, double weight, const double m[4], double *k)
 {
-    double skew[2], aa, bb, c[2];
-    hourglass_geometry(input->x, skew, &aa, &bb);
+    double skew[2], aa, bb, qq, c[2];
+    hourglass_geometry(input->x, skew, &aa, &bb, &qq);
     hourglass_moduli(input->law, weight, aa, bb, c);
     const double xi_a[4] = {-1, 1, 1, -1}, eta_a[4] = {-1, -1, 1, 1};
     double det = m[0] * m[3] - m[1] * m[2];
@@ -230,6 +268,27 @@ double geometry_rate(const ElementInput *input)
     return geometry_largest_eigenvalue(2 * corners, k) * corners / input->mass;
 }
 
+/* Largest eigenvalue of the geometric stiffness of a point under a unit of all-round tension (G of eq. E21, E22): of
+ * sum g g over the material axes, and of the fold's share along q. */
+static double stress_spread(const ElementInput *input, int point, const double m[4])
+{
+    int corners = input->kind == ELEMENT_TRIANGLE ? 3 : 4;
+    double g[4][2], k[16], q[4] = {0}, fold = 0.0;
+    shape_gradients(input->kind, point, m, g);
+    if (has_fold(input)) {
+        const double xi_a[4] = {-1, 1, 1, -1}, eta_a[4] = {-1, -1, 1, 1};
+        double skew[2], aa, bb, qq, e[3];
+        hourglass_geometry(input->x, skew, &aa, &bb, &qq);
+        fold_metric(point, m, e);
+        fold = e[0] + e[1] > 0.0 ? e[0] + e[1] : 0.0;
+        for (int a = 0; a < 4; a++) q[a] = 0.25 * (xi_a[a] * eta_a[a] - skew[0] * xi_a[a] - skew[1] * eta_a[a]);
+    }
+    for (int a = 0; a < corners; a++)
+        for (int b = 0; b < corners; b++)
+            k[corners * a + b] = g[a][0] * g[b][0] + g[a][1] * g[b][1] + fold * q[a] * q[b];
+    return geometry_largest_eigenvalue(corners, k);
+}
+
 GeometryStatus geometry_fill(const ElementInput *input, double sign, double *lane)
 {
     if (!input->law) {
@@ -240,20 +299,14 @@ GeometryStatus geometry_fill(const ElementInput *input, double sign, double *lan
     if (corners == 4 && !quad_is_convex(input->x)) return GEOMETRY_INVERTED;
     double spread = 0.0, volume = 0.0, m[4] = {0};
     for (int p = 0; p < points; p++) {
-        double area, g[4][2], h11 = 0.0, h22 = 0.0, h12 = 0.0;
+        double area;
         GeometryStatus status = point_geometry(input, p, m, &area);
         if (status != GEOMETRY_OK) return status;
         double *point = lane + p * GEOMETRY_POINT_SIZE * BILLOW_LANES;
         for (int i = 0; i < 4; i++) point[(GEOMETRY_M11 + i) * BILLOW_LANES] = m[i];
         point[GEOMETRY_WEIGHT * BILLOW_LANES] = area * input->thickness;
         volume += area * input->thickness;
-        shape_gradients(input->kind, p, m, g);
-        for (int a = 0; a < corners; a++) {
-            h11 += g[a][0] * g[a][0];
-            h22 += g[a][1] * g[a][1];
-            h12 += g[a][0] * g[a][1];
-        }
-        double major = 0.5 * (h11 + h22) + sqrt(0.25 * (h11 - h22) * (h11 - h22) + h12 * h12);
+        double major = stress_spread(input, p, m);
         spread = major > spread ? major : spread;
     }
     double *tail = lane + points * GEOMETRY_POINT_SIZE * BILLOW_LANES;
@@ -262,14 +315,14 @@ GeometryStatus geometry_fill(const ElementInput *input, double sign, double *lan
     tail[GEOMETRY_STRESS_RATE * BILLOW_LANES] = spread * volume * corners / input->mass;
     tail[GEOMETRY_VISCOSITY * BILLOW_LANES] = rate > 0.0 ? input->law->damping * 2.0 / sqrt(rate) : 0.0;
     tail[GEOMETRY_SIGN * BILLOW_LANES] = sign;
-    if (input->kind == ELEMENT_QUAD_ONE) {
-        double *glass = tail + GEOMETRY_TAIL_SIZE * BILLOW_LANES;
-        double skew[2], aa, bb, c[2];
-        hourglass_geometry(input->x, skew, &aa, &bb);
+    if (input->kind == ELEMENT_QUAD_ONE || has_fold(input)) {
+        double *constant = tail + GEOMETRY_TAIL_SIZE * BILLOW_LANES;
+        double skew[2], aa, bb, qq, c[2];
+        hourglass_geometry(input->x, skew, &aa, &bb, &qq);
         hourglass_moduli(input->law, volume, aa, bb, c);
         for (int i = 0; i < 2; i++) {
-            glass[(GEOMETRY_SKEW1 + i) * BILLOW_LANES] = skew[i];
-            glass[(GEOMETRY_HOURGLASS1 + i) * BILLOW_LANES] = c[i];
+            constant[(GEOMETRY_SKEW1 + i) * BILLOW_LANES] = skew[i];
+            if (input->kind == ELEMENT_QUAD_ONE) constant[(GEOMETRY_HOURGLASS1 + i) * BILLOW_LANES] = c[i];
         }
     }
     return GEOMETRY_OK;

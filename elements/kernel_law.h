@@ -144,7 +144,7 @@ ALWAYS_INLINE PackTensor green_strain(PackTensor c)
     return e;
 }
 
-/* FORM 2: S = D : E with the tension field and the liner (eq. F5). */
+/* FORM 2: S = D : E with the tension field and the liner (eq. F12). */
 ALWAYS_INLINE GreenResult green_stress(const FabricLaw *law, const Compliance *b, bool field, bool liner, PackTensor e)
 {
     GreenResult result;
@@ -165,14 +165,63 @@ ALWAYS_INLINE GreenResult green_stress(const FabricLaw *law, const Compliance *b
     return result;
 }
 
-/* What FORM 0, 1 and MAT_ELASTIC need of C: the strain and the way back to the second Piola-Kirchhoff stress. */
+/* What FORM 0 and 1 need of C: the stretch U = sqrt(C) and the way back to the second Piola-Kirchhoff stress. */
+typedef struct BiotState {
+    PackTensor stretch; /* U in material axes */
+    Pack jacobian;      /* J = det U */
+    Pack pull;          /* 1/(J tr U) */
+    Pack skew;          /* (l1 - l2)/(l1 + l2) of the principal stretches */
+} BiotState;
+
+/* U = (C + J 1)/tr U with tr U = sqrt(tr C + 2 J) (eq. F1): no eigenvectors. */
+ALWAYS_INLINE BiotState biot_state(PackTensor c)
+{
+    BiotState f;
+    Pack half = 0.5 * (c.a11 - c.a22), trace = pack_larger(c.a11 + c.a22, pack_of(BILLOW_LEAST_SQUARED_STRETCH));
+    Pack det = pack_larger(c.a11 * c.a22 - c.a12 * c.a12, BILLOW_LEAST_SQUARED_STRETCH * trace);
+    Pack by_jacobian = pack_reciprocal_root(det);
+    f.jacobian = det * by_jacobian;
+    Pack by_sum = pack_reciprocal_root(trace + 2.0 * f.jacobian); /* 1/tr U */
+    f.stretch.a11 = (c.a11 + f.jacobian) * by_sum;
+    f.stretch.a22 = (c.a22 + f.jacobian) * by_sum;
+    f.stretch.a12 = c.a12 * by_sum;
+    f.pull = by_jacobian * by_sum;
+    f.skew = 2.0 * pack_root(half * half + c.a12 * c.a12) * (by_sum * by_sum);
+    return f;
+}
+
+/* Biot stress T = D : (U - 1), the fabric's share with the compression removed, the liner's as it is (eq. F4, F6, F7).
+ * *major: largest principal stress of the fabric. */
+ALWAYS_INLINE PackTensor biot_stress(const FabricLaw *law, bool field, bool liner, PackTensor u, Pack *major)
+{
+    PackTensor e = {u.a11 - 1.0, u.a22 - 1.0, u.a12}, t = apply_moduli(&law->fabric, e);
+    if (field)
+        t = remove_compression(t, major);
+    else
+        *major = major_value(t);
+    if (liner) t = add_tensors(t, apply_moduli(&law->liner, e));
+    return t;
+}
+
+/* The S of 1/2 (S U + U S) = T: S = (J T + adj U T adj U)/(J tr U) (eq. F5). */
+ALWAYS_INLINE PackTensor pull_back_biot(PackTensor t, const BiotState *f)
+{
+    Pack a11 = f->stretch.a22, a22 = f->stretch.a11, a12 = -f->stretch.a12, j = f->jacobian;
+    Pack p11 = a11 * t.a11 + a12 * t.a12, p12 = a11 * t.a12 + a12 * t.a22, p21 = a12 * t.a11 + a22 * t.a12,
+         p22 = a12 * t.a12 + a22 * t.a22;
+    PackTensor s = {f->pull * (j * t.a11 + (p11 * a11 + p12 * a12)), f->pull * (j * t.a22 + (p21 * a12 + p22 * a22)),
+                    f->pull * (j * t.a12 + (p11 * a12 + p12 * a22))};
+    return s;
+}
+
+/* What MAT_ELASTIC needs of C: the strain and the way back to the second Piola-Kirchhoff stress. */
 typedef struct LogarithmicState {
     PackTensor strain;   /* ln U in material axes */
     Pack jacobian, pull; /* J and 1/(J (l1 + l2)^2), the factor of pull_back */
     Pack wide;           /* l1/l2 */
 } LogarithmicState;
 
-/* ln U = (ln det C)/4 1 + ((ln c1)/2 - (ln det C)/4) dev C / radius (eq. F1), c1 the larger squared principal stretch.
+/* ln U = (ln det C)/4 1 + ((ln c1)/2 - (ln det C)/4) dev C / radius (eq. F13), c1 the larger squared principal stretch.
  * One division for the two logarithms and for the way back. */
 ALWAYS_INLINE LogarithmicState logarithmic_state(PackTensor c)
 {
@@ -198,26 +247,7 @@ ALWAYS_INLINE LogarithmicState logarithmic_state(PackTensor c)
     return f;
 }
 
-/* Cauchy stress t = D : ln U with the tension field and the liner (eq. F4 to F7). *major: largest principal stress of
- * the fabric, and what the liner may add. */
-ALWAYS_INLINE PackTensor logarithmic_stress(const FabricLaw *law, bool field, bool liner, PackTensor e, Pack *major)
-{
-    PackTensor t = apply_moduli(&law->fabric, e), none = {pack_of(0.0), pack_of(0.0), pack_of(0.0)};
-    if (field)
-        t = remove_compression(t, major);
-    else
-        *major = major_value(t);
-    if (liner) {
-        PackTensor more = apply_moduli(&law->liner, e);
-        t = add_tensors(t, more);
-        *major += pack_larger(more.a11, pack_of(0.0)) + pack_larger(more.a22, pack_of(0.0)) + pack_absolute(more.a12);
-        /* a sheet without any direction in tension is slack, its liner too (eq. F7a) */
-        if (field) t = tensor_where_positive(major_value(t), t, none);
-    }
-    return t;
-}
-
-/* S = J U^-1 t U^-1 on the constant thickness (eq. F4). With K = adj C + J 1 = (l1 + l2) adj U this is
+/* S = J U^-1 t U^-1 on the constant thickness (eq. F14). With K = adj C + J 1 = (l1 + l2) adj U this is
  * S = K t K / (J (l1 + l2)^2). */
 ALWAYS_INLINE PackTensor pull_back(PackTensor t, PackTensor c, Pack jacobian, Pack pull)
 {

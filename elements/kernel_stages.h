@@ -20,10 +20,11 @@ typedef struct LawInput {
 
 /* What a kernel does besides the law; a constant of each kernel, so that its loops have no branch. */
 enum {
-    MODE_LOGARITHMIC = 1, /* else Green */
+    MODE_BIOT = 1,
     MODE_TENSION_FIELD = 2,
     MODE_LINER = 4,
-    MODE_HISTORY = 8, /* strain and stress of the last step are kept: stress-work ledger, damping */
+    MODE_HISTORY = 8,      /* strain and stress of the last step are kept: stress-work ledger, damping */
+    MODE_LOGARITHMIC = 16, /* with MODE_BIOT neither: Green */
 };
 
 /* Where the constants and histories of one pack of points lie. */
@@ -68,21 +69,33 @@ ALWAYS_INLINE PackTensor natural_directions(const double *point, PackTensor s)
     return p;
 }
 
-/* FORM 0, 1 and MAT_ELASTIC (eq. F1 to F7), from the state of the strain. */
-ALWAYS_INLINE PackTensor stress_logarithmic(int mode, const LawInput *in, const PointPlace *place,
-                                            const LogarithmicState *f, PointPack *p)
+/* FORM 0 and 1 (eq. F1 to F7); the frequency by (E22). */
+ALWAYS_INLINE PackTensor stress_biot(int mode, const LawInput *in, const PointPlace *place, const BiotState *f,
+                                     PointPack *p)
 {
-    Pack major, stretch = f->wide;
-    PackTensor t = logarithmic_stress(&in->law, mode & MODE_TENSION_FIELD, mode & MODE_LINER, f->strain, &major);
+    Pack major, shear = (2.0 * in->law.whole.d33) * lane_values(place->tail, GEOMETRY_STRESS_RATE);
+    PackTensor s =
+        pull_back_biot(biot_stress(&in->law, mode & MODE_TENSION_FIELD, mode & MODE_LINER, f->stretch, &major), f);
+    Pack reference = lane_values(place->tail, GEOMETRY_RATE);
+    Pack stretched = (1.0 + f->skew) * (reference + f->skew * shear);
     /* a slack element keeps its reference frequency, or what its liner has: it may be taut in the next cycle */
     if (mode & MODE_TENSION_FIELD)
-        stretch = pack_where_positive(major, f->wide, pack_larger(pack_of(1.0), in->law.slack_share * f->wide));
-    p->rate = stretch * lane_values(place->tail, GEOMETRY_RATE) +
-              pack_larger(major, pack_of(0.0)) * f->wide * lane_values(place->tail, GEOMETRY_STRESS_RATE);
-    return pull_back(t, p->c, f->jacobian, f->pull);
+        stretched = pack_where_positive(major, stretched, pack_larger(reference, in->law.slack_share * stretched));
+    p->rate = stretched + pack_larger(major_value(s), pack_of(0.0)) * lane_values(place->tail, GEOMETRY_STRESS_RATE);
+    return s;
 }
 
-/* FORM 2 (eq. F5, F8 to F11). */
+/* MAT_ELASTIC (eq. F13, F14); the frequency by (E23). */
+ALWAYS_INLINE PackTensor stress_logarithmic(const LawInput *in, const PointPlace *place, PointPack *p)
+{
+    LogarithmicState f = logarithmic_state(p->c);
+    PackTensor t = apply_moduli(&in->law.whole, f.strain);
+    p->rate = f.wide * (lane_values(place->tail, GEOMETRY_RATE) +
+                        pack_larger(major_value(t), pack_of(0.0)) * lane_values(place->tail, GEOMETRY_STRESS_RATE));
+    return pull_back(t, p->c, f.jacobian, f.pull);
+}
+
+/* FORM 2 (eq. F8 to F12). */
 ALWAYS_INLINE PackTensor stress_green(int mode, const LawInput *in, const PointPlace *place, PointPack *p)
 {
     GreenResult r =
@@ -107,7 +120,7 @@ ALWAYS_INLINE PackTensor keep_history(int mode, const LawInput *in, const PointP
     PackTensor mean = {0.5 * (s.a11 + lane_values(h, 3)), 0.5 * (s.a22 + lane_values(h, 4)),
                        0.5 * (s.a12 + lane_values(h, 5))};
     Pack work = in->count_work * (lane_values(place->point, GEOMETRY_WEIGHT) * contract(mean, change));
-    if (mode & MODE_LOGARITHMIC)
+    if (mode & (MODE_BIOT | MODE_LOGARITHMIC))
         p->energy = work;
     else
         p->viscous = work; /* less the stored energy's change this is what was dissipated */
@@ -120,13 +133,14 @@ ALWAYS_INLINE PackTensor keep_history(int mode, const LawInput *in, const PointP
 ALWAYS_INLINE void natural_stress(int mode, const LawInput *in, int count, const PointPlace *place,
                                   PointPack *restrict p)
 {
-    LogarithmicState state[PACKS > 4 ? PACKS : 4];
-    if (mode & MODE_LOGARITHMIC)
-        for (int i = 0; i < count; i++) state[i] = logarithmic_state(p[i].c);
+    BiotState state[PACKS > 4 ? PACKS : 4];
+    if (mode & MODE_BIOT)
+        for (int i = 0; i < count; i++) state[i] = biot_state(p[i].c);
     for (int i = 0; i < count; i++) {
         p[i].viscous = pack_of(0.0);
-        PackTensor s = mode & MODE_LOGARITHMIC ? stress_logarithmic(mode, in, &place[i], &state[i], &p[i])
-                                               : stress_green(mode, in, &place[i], &p[i]);
+        PackTensor s = mode & MODE_BIOT          ? stress_biot(mode, in, &place[i], &state[i], &p[i])
+                       : mode & MODE_LOGARITHMIC ? stress_logarithmic(in, &place[i], &p[i])
+                                                 : stress_green(mode, in, &place[i], &p[i]);
         if (mode & MODE_HISTORY) s = keep_history(mode, in, &place[i], s, &p[i]);
         p[i].p = natural_directions(place[i].point, s);
     }

@@ -71,13 +71,14 @@ static LawInput make_law_input(const KernelInput *input)
 static int kernel_mode(const ElementGroup *group)
 {
     int mode = group->history_size > 0 ? MODE_HISTORY : 0;
-    if (group->law == LAW_LOGARITHMIC) mode |= MODE_LOGARITHMIC;
+    if (group->law == LAW_LOGARITHMIC) return MODE_LOGARITHMIC | MODE_HISTORY;
+    if (group->law == LAW_BIOT) mode |= MODE_BIOT;
     if (group->material.no_compression) mode |= MODE_TENSION_FIELD;
     if (group->material.has_liner) mode |= MODE_LINER;
     return mode;
 }
 
-/* Calls WORK with the mode as a constant. A logarithmic law always has a history. */
+/* Calls WORK with the mode as a constant. Laws with a stress-work ledger always have a history. */
 #define FOR_MODE(mode, WORK)                                                                                           \
     switch (mode) {                                                                                                    \
     case 0:                                                                                                            \
@@ -112,6 +113,9 @@ static int kernel_mode(const ElementGroup *group)
         break;                                                                                                         \
     case 13:                                                                                                           \
         WORK(13);                                                                                                      \
+        break;                                                                                                         \
+    case 24:                                                                                                           \
+        WORK(24);                                                                                                      \
         break;                                                                                                         \
     default:                                                                                                           \
         WORK(15);                                                                                                      \
@@ -240,6 +244,7 @@ static void kernel_triangle(const KernelInput *input, ChunkSums *sums)
 /* Natural gradients of a bilinear quad: x_xi = a + eta h, x_eta = b + xi h (eq. E2). */
 typedef struct QuadPack {
     Pack a[3], b[3], h[3], centre[3];
+    Pack q[3], skew1, skew2;       /* h less its affine part (eq. E15) */
     Pack force[4][3], share[4][3]; /* of each corner */
 } QuadPack;
 
@@ -256,6 +261,15 @@ ALWAYS_INLINE void quad_gradients(const KernelInput *input, const ElementPlace *
         q->h[k] = 0.25 * (upper - lower);
         q->centre[k] = 0.25 * ((x[0][k] + x[1][k]) + (x[2][k] + x[3][k])) - input->origin[k];
     }
+}
+
+/* q = h - k1 a - k2 b (eq. E15). constant: where the skews k are. */
+ALWAYS_INLINE void free_hourglass(const double *constant, QuadPack *q)
+{
+    q->skew1 = lane_values(constant, GEOMETRY_SKEW1);
+    q->skew2 = lane_values(constant, GEOMETRY_SKEW2);
+#pragma GCC unroll 3
+    for (int k = 0; k < 3; k++) q->q[k] = q->h[k] - (q->skew1 * q->a[k] + q->skew2 * q->b[k]);
 }
 
 /* Corner forces from the forces conjugate to a, b and h (eq. E7). */
@@ -298,25 +312,44 @@ ALWAYS_INLINE void quad_area(Pack sign, int pack, QuadPack *q, PackSums *sums)
 
 enum { QUAD_POINTS = 4 };
 
-/* Metrics at the points g11 = x_xi.x_xi ... in material axes. */
-ALWAYS_INLINE void quad_metrics(const double *points, const QuadPack *q, const double xi[], const double eta[],
-                                PointPack *p)
+/* Metrics at the points g11 = x_xi.x_xi ... in material axes; FORM 0 and 1 fold freely about the diagonal n1-n3
+ * (eq. E4a). */
+ALWAYS_INLINE void quad_metrics(int mode, const double *points, const QuadPack *q, const double xi[],
+                                const double eta[], PointPack *p)
 {
     Pack aa = dot(q->a, q->a), bb = dot(q->b, q->b), ab = dot(q->a, q->b), ah = dot(q->a, q->h), bh = dot(q->b, q->h),
-         hh = dot(q->h, q->h);
+         hh = dot(q->h, q->h), qq = mode & MODE_BIOT ? dot(q->q, q->q) : pack_of(0.0), more = (2.0 / 3.0) * qq;
 #pragma GCC unroll 4
     for (int i = 0; i < QUAD_POINTS; i++) {
         PackTensor g = {aa + eta[i] * (2.0 * ah + eta[i] * hh), bb + xi[i] * (2.0 * bh + xi[i] * hh),
                         (ab + xi[i] * ah) + (eta[i] * bh + (xi[i] * eta[i]) * hh)};
+        if (mode & MODE_BIOT) {
+            g.a11 += more;
+            g.a22 += more;
+            g.a12 -= (1.0 + xi[i] * eta[i]) * qq;
+        }
         p[i].c = material_metric(points + i * GEOMETRY_POINT_SIZE * LANES, g);
     }
 }
 
+/* Adds the force along q, conjugate to q.q (eq. E7a), to those of a, b and h. */
+ALWAYS_INLINE void add_fold_force(Pack normal, Pack shear, const QuadPack *q, Pack qa[3], Pack qb[3], Pack qh[3])
+{
+    Pack fold = (2.0 / 3.0) * normal - 2.0 * shear;
+#pragma GCC unroll 3
+    for (int k = 0; k < 3; k++) {
+        Pack along = fold * q->q[k];
+        qa[k] -= q->skew1 * along;
+        qb[k] -= q->skew2 * along;
+        qh[k] += along;
+    }
+}
+
 /* Weighted sums of the natural stresses of the points give all that the forces need (eq. E7). */
-ALWAYS_INLINE void quad_stress_forces(const PointPack *p, const double xi[], const double eta[], QuadPack *q)
+ALWAYS_INLINE void quad_stress_forces(int mode, const PointPack *p, const double xi[], const double eta[], QuadPack *q)
 {
     const Pack zero = pack_of(0.0);
-    Pack aa = zero, ab = zero, bb = zero, ah = zero, bh = zero, hh = zero, qa[3], qb[3], qh[3];
+    Pack aa = zero, ab = zero, bb = zero, ah = zero, bh = zero, hh = zero, twist = zero, qa[3], qb[3], qh[3];
 #pragma GCC unroll 4
     for (int i = 0; i < QUAD_POINTS; i++) {
         Pack u = eta[i] * p[i].p.a11 + xi[i] * p[i].p.a12, w = eta[i] * p[i].p.a12 + xi[i] * p[i].p.a22;
@@ -326,6 +359,7 @@ ALWAYS_INLINE void quad_stress_forces(const PointPack *p, const double xi[], con
         ah += u;
         bh += w;
         hh += eta[i] * u + xi[i] * w;
+        if (mode & MODE_BIOT) twist += (1.0 + xi[i] * eta[i]) * p[i].p.a12;
     }
 #pragma GCC unroll 3
     for (int k = 0; k < 3; k++) {
@@ -334,6 +368,7 @@ ALWAYS_INLINE void quad_stress_forces(const PointPack *p, const double xi[], con
         qb[k] = ab * a + bb * b + bh * h;
         qh[k] = ah * a + bh * b + hh * h;
     }
+    if (mode & MODE_BIOT) add_fold_force(aa + bb, twist, q, qa, qb, qh);
     quad_forces(qa, qb, qh, q);
 }
 
@@ -351,9 +386,10 @@ ALWAYS_INLINE void quad_full_pack(int mode, const KernelInput *input, const LawI
         point[i] = (PointPlace){place.geometry + i * GEOMETRY_POINT_SIZE * LANES, tail,
                                 place.history + i * HISTORY_POINT_SIZE * LANES};
     quad_gradients(input, &place, &q);
-    quad_metrics(place.geometry, &q, xi, eta, p);
+    if (mode & MODE_BIOT) free_hourglass(tail + GEOMETRY_TAIL_SIZE * LANES, &q);
+    quad_metrics(mode, place.geometry, &q, xi, eta, p);
     natural_stress(mode, in, QUAD_POINTS, point, p);
-    quad_stress_forces(p, xi, eta, &q);
+    quad_stress_forces(mode, p, xi, eta, &q);
     quad_area(lane_values(tail, GEOMETRY_SIGN), pack, &q, sums);
     quad_add(input, &place, &q);
     p[0].energy = (p[0].energy + p[1].energy) + (p[2].energy + p[3].energy);
@@ -378,21 +414,18 @@ static void kernel_quad_full(const KernelInput *input, ChunkSums *sums)
 #undef WORK
 }
 
-/* The one-point quad's hourglass vector q = h - its affine part, and what holds it (eq. E17, E18). */
+/* What holds the one-point quad's hourglass vector q in the plane (eq. E18). */
 typedef struct HourglassPack {
-    Pack q[3], skew1, skew2, hold1, hold2;
+    Pack hold1, hold2;
 } HourglassPack;
 
 /* The mean metric g11 = a.a + q.q/3, so that transverse hourglass modes are held by the stress (eq. E17), in-plane ones
  * by the modulus QH (eq. E18). */
-ALWAYS_INLINE PackTensor one_point_metric(const double *constant, const QuadPack *quad, int pack, HourglassPack *glass,
+ALWAYS_INLINE PackTensor one_point_metric(const double *constant, QuadPack *quad, int pack, HourglassPack *glass,
                                           PackSums *sums)
 {
-    glass->skew1 = lane_values(constant, GEOMETRY_SKEW1);
-    glass->skew2 = lane_values(constant, GEOMETRY_SKEW2);
-#pragma GCC unroll 3
-    for (int k = 0; k < 3; k++) glass->q[k] = quad->h[k] - (glass->skew1 * quad->a[k] + glass->skew2 * quad->b[k]);
-    Pack third = dot(glass->q, glass->q) * (1.0 / 3.0), r1 = dot(glass->q, quad->a), r2 = dot(glass->q, quad->b);
+    free_hourglass(constant, quad);
+    Pack third = dot(quad->q, quad->q) * (1.0 / 3.0), r1 = dot(quad->q, quad->a), r2 = dot(quad->q, quad->b);
     glass->hold1 = lane_values(constant, GEOMETRY_HOURGLASS1) * r1;
     glass->hold2 = lane_values(constant, GEOMETRY_HOURGLASS2) * r2;
     sums->hourglass.part[pack % SUM_PACKS] += 0.5 * (glass->hold1 * r1 + glass->hold2 * r2);
@@ -405,9 +438,9 @@ ALWAYS_INLINE void one_point_forces(const PackTensor *p, const HourglassPack *gl
     Pack third = (p->a11 + p->a22) * (1.0 / 3.0), qa[3], qb[3], qh[3];
 #pragma GCC unroll 3
     for (int k = 0; k < 3; k++) {
-        Pack a = quad->a[k], b = quad->b[k], hold = glass->hold1 * a + glass->hold2 * b + third * glass->q[k];
-        qa[k] = p->a11 * a + p->a12 * b + glass->hold1 * glass->q[k] - glass->skew1 * hold;
-        qb[k] = p->a12 * a + p->a22 * b + glass->hold2 * glass->q[k] - glass->skew2 * hold;
+        Pack a = quad->a[k], b = quad->b[k], hold = glass->hold1 * a + glass->hold2 * b + third * quad->q[k];
+        qa[k] = p->a11 * a + p->a12 * b + glass->hold1 * quad->q[k] - quad->skew1 * hold;
+        qb[k] = p->a12 * a + p->a22 * b + glass->hold2 * quad->q[k] - quad->skew2 * hold;
         qh[k] = hold;
     }
     quad_forces(qa, qb, qh, quad);

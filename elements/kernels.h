@@ -23,10 +23,12 @@ enum {
     GEOMETRY_VISCOSITY,   /* DAMP x 2 / largest frequency [T] */
     GEOMETRY_SIGN,        /* +1 or -1: orientation of the area vector; 0 in padding lanes */
     GEOMETRY_TAIL_SIZE,
-    /* after the tail, one-point quads only: */
+    /* after the tail, quads that use the hourglass vector: one point, or FORM 0, 1 */
     GEOMETRY_SKEW1 = 0,
     GEOMETRY_SKEW2, /* reference hourglass vector in natural directions */
-    GEOMETRY_HOURGLASS1,
+    GEOMETRY_SKEW_SIZE,
+    /* and after these, one-point quads only: */
+    GEOMETRY_HOURGLASS1 = GEOMETRY_SKEW_SIZE,
     GEOMETRY_HOURGLASS2, /* hourglass moduli x weight [energy/L4] */
     GEOMETRY_HOURGLASS_SIZE,
 };

@@ -6,7 +6,8 @@
 
 typedef enum LawKind {
     LAW_SURFACE,     /* no stress */
-    LAW_LOGARITHMIC, /* FORM 0, 1 and MAT_ELASTIC: Cauchy stress = D : ln U, thickness constant */
+    LAW_BIOT,        /* FORM 0, 1: Biot stress = D : (U - 1), thickness constant */
+    LAW_LOGARITHMIC, /* MAT_ELASTIC: Cauchy stress = D : ln U, thickness constant */
     LAW_GREEN,       /* FORM 2: second Piola-Kirchhoff stress = D : E */
 } LawKind;
 
@@ -21,6 +22,7 @@ typedef struct FabricLaw {
     PlaneModuli whole;  /* fabric + liner */
     bool has_liner;
     bool no_compression; /* CSE = 1: tension field */
+    bool free_fold;      /* quads of 2 x 2 points fold about a diagonal without strain: FORM 0, 1 */
     double damping;      /* DAMP: share of critical at the element's highest frequency */
     double density;      /* [M/L3] */
     double hourglass;    /* QH of the one-point quad */

@@ -6,8 +6,8 @@
 #include "solver/state.h"
 
 /* Stress and strain of one element at its centre (mean over points) for output: symmetric tensors in global axes, order
- * xx yy zz xy yz zx; Cauchy stress [F/L2]; strain logarithmic or Green as the law has it. thickness is the current [L].
- * element is the deck-order index. Rigid and surface elements give zero stress. */
+ * xx yy zz xy yz zx; Cauchy stress [F/L2]; strain U - 1, logarithmic or Green as the law has it. thickness is the
+ * current [L]. element is the deck-order index. Rigid and surface elements give zero stress. */
 typedef struct ElementResult {
     double stress[6], strain[6], thickness;
 } ElementResult;

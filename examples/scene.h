@@ -140,6 +140,7 @@ typedef struct SceneFabric {
     int aopt;         /* 0: edge n1-n2; 2: along the vector */
     double vector[3]; /* for aopt = 2 */
     double beta;      /* degrees */
+    bool elastic;     /* MAT_ELASTIC of E = ea, nu = prba instead */
 } SceneFabric;
 
 /* Isotropic fabric. */

@@ -134,6 +134,10 @@ SceneFabric scene_isotropic(int form, bool cse, double density, double e, double
 void scene_write_fabric(SceneText *deck, int material, const SceneFabric *fabric)
 {
     const SceneFabric *f = fabric;
+    if (f->elastic) {
+        scene_write_elastic(deck, material, f->density, f->ea, f->prba);
+        return;
+    }
     scene_print(deck, "*MAT_FABRIC\n$      mid        ro        ea        eb                prba      prab\n");
     SCENE_CARD(deck, material, f->density, f->ea, f->eb, 0, f->prba, f->prab);
     scene_print(deck, "$      gab                           cse        el       prl    lratio      damp\n");

@@ -80,7 +80,8 @@ static int fabric_law(Builder *b, const MaterialDefinition *m, bool first_use, P
     law_set(&part->fabric, fabric, liner, f->lratio, has_liner);
     part->fabric.no_compression = f->cse == 1.0;
     part->fabric.damping = f->damp > 0.0 ? f->damp : 0.0;
-    part->law = f->form == 2 ? LAW_GREEN : LAW_LOGARITHMIC;
+    part->law = f->form == 2 ? LAW_GREEN : LAW_BIOT;
+    part->fabric.free_fold = part->law == LAW_BIOT;
     return fabric_axis(b, m, part);
 }
 

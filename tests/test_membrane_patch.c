@@ -192,6 +192,38 @@ static Plane fabric_stress(double angle, Plane e)
                    s * c * (t.xx - t.yy) + (c * c - s * s) * t.xy};
 }
 
+/* Symmetric stretch with a given Green strain: F = U = sqrt(I + 2 E). */
+static void stretch_of(Plane e, double f[4])
+{
+    double c11 = 1 + 2 * e.xx, c22 = 1 + 2 * e.yy, c12 = 2 * e.xy, root = sqrt(c11 * c22 - c12 * c12);
+    double scale = 1 / sqrt(c11 + c22 + 2 * root);
+    memcpy(f, (double[4]){(c11 + root) * scale, c12 * scale, c12 * scale, (c22 + root) * scale}, 4 * sizeof(double));
+}
+
+/* FORM 0, isotropic: in the principal axes of U the second Piola-Kirchhoff stress is S_i = T_i / l_i, T = D : (U - 1).
+ */
+static Plane isotropic_biot(const double f[4], double e, double nu)
+{
+    Plane g = green_strain(f);
+    double mean = 0.5 * (g.xx + g.yy), half = 0.5 * (g.xx - g.yy), radius = hypot(half, g.xy);
+    double l1 = sqrt(1 + 2 * (mean + radius)), l2 = sqrt(1 + 2 * (mean - radius)), q = e / (1 - nu * nu);
+    double s1 = q * ((l1 - 1) + nu * (l2 - 1)) / l1, s2 = q * ((l2 - 1) + nu * (l1 - 1)) / l2;
+    double centre = 0.5 * (s1 + s2), spread = 0.5 * (s1 - s2) / radius;
+    return (Plane){centre + spread * half, centre - spread * half, spread * g.xy};
+}
+
+/* FORM 0, orthotropic with fibre 1 along x: 1/2 (S U + U S) must be D : (U - 1). */
+static void check_biot_pair(const double f[4], Plane cauchy)
+{
+    Plane s = pull_back(f, cauchy);
+    double u[4];
+    stretch_of(green_strain(f), u);
+    Plane t = fabric_stress(0, (Plane){u[0] - 1, u[3] - 1, u[1]});
+    verify_close("A3, FORM 0, Biot stress 11 [Pa]", s.xx * u[0] + s.xy * u[1], t.xx, 1e-12);
+    verify_close("A3, FORM 0, Biot stress 22 [Pa]", s.yy * u[3] + s.xy * u[1], t.yy, 1e-12);
+    verify_close("A3, FORM 0, Biot stress 12 [Pa]", 0.5 * (s.xy * (u[0] + u[3]) + (s.xx + s.yy) * u[1]), t.xy, 1e-12);
+}
+
 static void patch_test(void **state)
 {
     (void)state;
@@ -208,17 +240,14 @@ static void patch_test(void **state)
         run_patch(&patch, &cauchy, 1e-12);
         patch.fabric = scene_isotropic(2, false, 1000, 2e8, 0.3);
         run_patch(&patch, &(Plane){11674876.2, -1912369.63, 7993451.33}, 1e-8);
-        patch.fabric = scene_isotropic(0, false, 1000, 2e8, 0.3);
+        patch.fabric.elastic = true;
         run_patch(&patch, &(Plane){8716152.37, -3927928.42, 7438582.13}, 1e-8);
+        patch.fabric = scene_isotropic(0, false, 1000, 2e8, 0.3);
+        Plane biot = push_forward(affine, isotropic_biot(affine, 2e8, 0.3));
+        run_patch(&patch, &biot, 1e-12);
+        patch.fabric = orthotropic(0, 0);
+        check_biot_pair(affine, run_patch(&patch, NULL, 0));
     }
-}
-
-/* Symmetric stretch with a given Green strain: F = U = sqrt(I + 2 E). */
-static void stretch_of(Plane e, double f[4])
-{
-    double c11 = 1 + 2 * e.xx, c22 = 1 + 2 * e.yy, c12 = 2 * e.xy, root = sqrt(c11 * c22 - c12 * c12);
-    double scale = 1 / sqrt(c11 + c22 + 2 * root);
-    memcpy(f, (double[4]){(c11 + root) * scale, c12 * scale, c12 * scale, (c22 + root) * scale}, 4 * sizeof(double));
 }
 
 static void orthotropic_fabric(void **state)
@@ -288,7 +317,7 @@ static void rigid_rotation(void **state)
 }
 
 /* FORM 2 follows the reference, a tension field of relaxed energy. FORM 0 follows LS-DYNA, which clips the negative
- * principal values of the stress D : ln U, so that a lateral squeeze lowers the tension. */
+ * principal values of the stress D : (U - 1), so that a lateral squeeze lowers the tension. */
 static void uniaxial_cut_off(void **state)
 {
     (void)state;
@@ -300,7 +329,7 @@ static void uniaxial_cut_off(void **state)
         const double stretch = 1.02, squeeze = green ? 0.9 : 0.99;
         memcpy(patch.f, (double[4]){stretch, 0, 0, squeeze}, sizeof patch.f);
         Plane taut = push_forward(patch.f, (Plane){2e8 * 0.5 * (stretch * stretch - 1), 0, 0});
-        if (!green) taut.xx = 2e8 / (1 - 0.09) * (elementary_log(stretch) + 0.3 * elementary_log(squeeze));
+        if (!green) taut.xx = 2e8 / (1 - 0.09) * ((stretch - 1) + 0.3 * (squeeze - 1)) / squeeze;
         run_patch(&patch, &taut, 1e-10);
         memcpy(patch.f, (double[4]){0.99, 0, 0, 0.98}, sizeof patch.f);
         Plane slack = run_patch(&patch, NULL, 0);
