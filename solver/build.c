@@ -143,14 +143,14 @@ static int run_stages(Builder *b)
     errors = b->diagnostics->errors;
     if (build_surfaces(b)) status = -1;
     if (status && b->diagnostics->errors == errors) return -1;
-    if (build_airbags(b)) status = -1;
+    if (build_airbags(b) || build_connections(b)) status = -1;
     if (build_walls(b)) status = -1;
     if (build_mass_scaling(b)) status = -1;
     lump_masses(b);
     if (build_movement(b)) status = -1;
     if (status) return -1;
     if (build_pressure_sets(b)) return -1;
-    if (build_renumber(b) || build_groups(b) || build_wall_nodes(b) || build_link_ends(b)) return -1;
+    if (build_renumber(b) || build_groups(b) || build_areas(b) || build_wall_nodes(b) || build_link_ends(b)) return -1;
     set_origin(b);
     b->model->caps_push_rim = b->options->caps_push_rim;
     return take_motion(b);

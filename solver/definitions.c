@@ -27,7 +27,8 @@ void definitions_free(Definitions *d)
                      d->dampings.items,      d->airbags.items,        d->walls.items,
                      d->solids.items,        d->solid_sections.items, d->merges.items,
                      d->extra_nodes.items,   d->nodal_bodies.items,   d->beams.items,
-                     d->beam_sections.items, d->discretes.items,      d->discrete_sections.items};
+                     d->beam_sections.items, d->discretes.items,      d->discrete_sections.items,
+                     d->interactions.items,  d->porosities.items};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) memory_free(lists[i]);
     memset(d, 0, sizeof *d);
 }

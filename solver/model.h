@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "airbag/connection.h"
 #include "airbag/gas.h"
 #include "airbag/surface.h"
 #include "contact/rigid_wall.h"
@@ -60,6 +61,7 @@ typedef struct PressureSet {
     int count;
     int source[4]; /* index into pressure sources: airbags first, then segment loads */
     int sign[4];   /* +1: the source is on the inner side of the stored orientation */
+    int push[4];   /* sign, or 0: the surface bounds the source's volume, but does not feel its pressure */
 } PressureSet;
 
 typedef struct Part {
@@ -91,8 +93,13 @@ typedef struct Airbag {
     SurfaceClosure closure; /* caps and report, airbag/surface.h */
     int *part;              /* indices of the parts on its surface (part_count) */
     int part_count;
-    int *node; /* nodes on its surface (node_count), ascending */
+    int surface_parts; /* the rest of part are vents off the surface */
+    int first_part;    /* place of part[0] in State.part_area */
+    int *node;         /* nodes on its surface (node_count), ascending */
     int node_count;
+    int pop_part;    /* RBIDP: index of the part whose acceleration may open the exits, -1 none */
+    int facet_count; /* FLUID_AND_GAS only: its surface, wound outwards (facet_count x 4) */
+    int32_t *facet;
     double ambient; /* pressure outside: applied pressure = p - ambient */
     Source source;
 } Airbag;
@@ -154,6 +161,12 @@ typedef struct Model {
     Part *parts;
     int airbag_count;
     Airbag *airbags;
+    int connection_count;
+    GasConnection *connections; /* airbag/connection.h */
+    int bag_part_count;         /* parts of all bags together */
+    int *group_place; /* place of each group in each bag's list of parts, -1 none (group_count x airbag_count) */
+    bool has_fluid;   /* a bag of FLUID_AND_GAS: pressure by height */
+    bool blockage;    /* contact blocks leaking fabric, vents or openings: State.contact_share is there */
     int curve_count;
     Curve *curves;
     int segment_load_count;

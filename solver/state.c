@@ -30,6 +30,10 @@ static size_t lay_out(const Model *model, State *state)
     state->part_hourglass = take(base, &used, (size_t)model->part_count * sizeof *state->part_hourglass);
     state->group_energy = take(base, &used, (size_t)model->group_count * sizeof *state->group_energy);
     state->cap_volume = take(base, &used, (size_t)model->airbag_count * sizeof *state->cap_volume);
+    state->part_area = take(base, &used, (size_t)model->bag_part_count * sizeof *state->part_area);
+    state->part_blocked = take(base, &used, (size_t)model->bag_part_count * sizeof *state->part_blocked);
+    size_t shares = model->blockage ? (size_t)model->element_count : 0;
+    state->contact_share = take(base, &used, shares * sizeof *state->contact_share);
     state->rigid = take(base, &used, (size_t)model->rigid_body_count * sizeof *state->rigid);
     state->link_energy = take(base, &used, (size_t)model->link_count * sizeof *state->link_energy);
     state->wall = take(base, &used, (size_t)model->wall_count * sizeof *state->wall);

@@ -83,6 +83,9 @@ static int allocate(Workspace *w)
     w->stagnation = memory_alloc(sets, sizeof(double));
     w->set_volume = memory_alloc(sets, sizeof(double));
     w->set_area = memory_alloc(sets, sizeof(double));
+    w->group_area = memory_alloc((size_t)m->group_count + 1, sizeof(double));
+    w->part_area = memory_alloc((size_t)m->part_count + 1, sizeof(double));
+    w->part_blocked = memory_alloc((size_t)m->part_count + 1, sizeof(double));
     w->source_pressure = memory_alloc(bags + (size_t)m->segment_load_count, sizeof(double));
     classes++; /* vector loads reach one value further */
     w->class_gravity = memory_alloc(classes, sizeof(double));
@@ -90,6 +93,7 @@ static int allocate(Workspace *w)
     w->class_velocity = memory_alloc(classes, sizeof(double));
     w->bag_volume = memory_alloc(bags, sizeof(double));
     w->bag_area = memory_alloc(bags, sizeof(double));
+    w->fluid_volume = memory_alloc(bags, sizeof(double));
     w->force = memory_alloc(nodes, sizeof(double));
     w->before = memory_alloc(nodes, sizeof(double));
     w->acceleration = memory_alloc(nodes, sizeof(double));
@@ -112,7 +116,8 @@ static int allocate(Workspace *w)
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
-                      w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force};
+                      w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
+                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
     return 0;
@@ -125,7 +130,8 @@ static void release(Workspace *w)
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
-                      w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force};
+                      w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
+                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
 }
 

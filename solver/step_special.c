@@ -18,6 +18,7 @@ static void gather_special(Workspace *w, NodeSums *t, bool after)
             const double *force = w->rows + ROW_SIZE * (ptrdiff_t)m->node_row[k], *share = force + ROW_AREA;
             int set = m->row_set[m->node_row[k]];
             double bag = set < 0 ? 0.0 : w->bag_pressure[set], load = set < 0 ? 0.0 : w->load_pressure[set];
+            if (m->has_fluid && set >= 0) bag += step_hydrostatic(w, set, w->state->x + 3 * (ptrdiff_t)node);
             for (int i = 0; i < 3; i++) {
                 double s = share[i];
                 stress[i] += force[i];

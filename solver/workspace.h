@@ -76,9 +76,12 @@ typedef struct Workspace {
     int node_chunk_count;                 /* chunks of free nodes */
     double *bag_pressure, *load_pressure; /* of each pressure set */
     double *set_volume, *set_area;
+    double *group_area;                                     /* of each group, of this cycle [L2] */
+    double *part_area, *part_blocked;                       /* of each part, and what contact covers of it [L2] */
     double *source_pressure;                                /* airbags, then segment loads */
     double *class_gravity, *class_damping, *class_velocity; /* (class_count x 3) */
     double *stagnation;                                     /* SPSF x ambient density by pressure set */
+    double *fluid_volume;                                   /* of FLUID_AND_GAS at t_n (airbag_count) */
     double *bag_volume, *bag_area;                          /* (airbag_count) */
     double *force;  /* special nodes: pressure and stress forces (node_count x 3); all nodes when emitting */
     double *newton; /* velocities of the special nodes before supports act (moving - free count, x 3) */
@@ -110,19 +113,24 @@ typedef struct NodeKernels {
 extern const NodeKernels node_kernels_v2, node_kernels_v3, node_kernels_v4;
 
 /* Phases of the cycle. */
-void step_elements(Workspace *w, int thread, int threads);          /* all threads */
-void step_gas(Workspace *w);                                        /* thread 0: sums, gas, pressures, next step */
-void step_gas_pass(Workspace *w, int thread, int threads);          /* all threads: sums of the implicit gas */
-void step_gas_implicit(Workspace *w);                               /* thread 0: pressures at the mean volume */
-void step_nodes(Workspace *w, int thread, int threads);             /* all threads: free nodes */
-void step_special(Workspace *w);                                    /* thread 0: special nodes */
-void step_walls_begin(Workspace *w);                                /* thread 0: where the walls are */
-void step_walls_special(Workspace *w, NodeSums *sums);              /* thread 0: special nodes; walls with mass */
-void step_walls_forces(Workspace *w);                               /* thread 0: sums for the writers */
-void step_tick(Workspace *w);                                       /* thread 0: the clock moves on */
-void step_emit(Workspace *w);                                       /* thread 0: full-step view to the hooks */
-void step_advance_positions(Workspace *w, int thread, int threads); /* all threads, after an emitting cycle */
-void step_close_energies(Workspace *w);                             /* thread 0: ledger at t_n */
+int step_bags(Workspace *w);                                           /* thread 0: gas of all bags to t_n; -1 failed */
+double step_fluid_volume(const Workspace *w, int bag, double level);   /* of FLUID_AND_GAS below a level, times VSCA */
+void step_fluid_settle(Workspace *w, int bag);                         /* the level of its volume */
+double step_hydrostatic(const Workspace *w, int set, const double *x); /* its pressure at a place, on a pressure set */
+double step_bags_scale(const Workspace *w);                            /* a step that resolves the gas by itself */
+void step_elements(Workspace *w, int thread, int threads);             /* all threads */
+void step_gas(Workspace *w);                                           /* thread 0: sums, gas, pressures, next step */
+void step_gas_pass(Workspace *w, int thread, int threads);             /* all threads: sums of the implicit gas */
+void step_gas_implicit(Workspace *w);                                  /* thread 0: pressures at the mean volume */
+void step_nodes(Workspace *w, int thread, int threads);                /* all threads: free nodes */
+void step_special(Workspace *w);                                       /* thread 0: special nodes */
+void step_walls_begin(Workspace *w);                                   /* thread 0: where the walls are */
+void step_walls_special(Workspace *w, NodeSums *sums);                 /* thread 0: special nodes; walls with mass */
+void step_walls_forces(Workspace *w);                                  /* thread 0: sums for the writers */
+void step_tick(Workspace *w);                                          /* thread 0: the clock moves on */
+void step_emit(Workspace *w);                                          /* thread 0: full-step view to the hooks */
+void step_advance_positions(Workspace *w, int thread, int threads);    /* all threads, after an emitting cycle */
+void step_close_energies(Workspace *w);                                /* thread 0: ledger at t_n */
 /* All threads: free nodes [first, end) of one chunk, after their node loop; before: their velocities at n - 1/2. */
 void step_walls_chunk(Workspace *w, int chunk, int first, int end, const double *before, NodeSums *sums);
 void step_fail(Workspace *w, const char *advice, const char *format, ...) __attribute__((format(printf, 3, 4)));
