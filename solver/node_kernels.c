@@ -1,130 +1,294 @@
 /* The node loops for one instruction set: corner forces and pressures to accelerations, velocities, positions
- * (docs/theory.md, Time integration). Compiled once per set, with BILLOW_NODE_TABLE naming its table. */
+ * (docs/theory.md, Time integration). Compiled once per set, with BILLOW_NODE_TABLE naming its table.
+ *
+ * A chunk of nodes goes in two passes: the corners of each node are summed, then all components x y z x y z ... of the
+ * chunk are integrated in packs. Sums over nodes run over component j of the chunk into partial sum j mod 8, so that
+ * every instruction set gives the same bits. */
 #include <string.h>
 
+#include "elements/pack.h"
 #include "solver/workspace.h"
 
+enum { COMPONENTS = 3 * BILLOW_NODE_CHUNK, SUM_WIDTH = 8, SUM_PACKS = SUM_WIDTH / PACK_WIDTH };
+
 /* Three components and one that is carried along unused: its load may reach into the next node's values, so the arrays
- * end with room for it, and it never enters a sum. */
+ * end with room for it. */
 typedef double Vector __attribute__((vector_size(32)));
 typedef double LooseVector __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double LoosePack __attribute__((vector_size(8 * PACK_WIDTH), aligned(8), may_alias));
 
-static inline Vector load3(const double *p)
+/* Partial sums over components; the members of NodeSums of the same name, without their factors. */
+typedef struct ComponentSums {
+    Pack before[SUM_PACKS], after[SUM_PACKS];           /* s.v- and s.v+ under one pressure */
+    Pack bag_before[SUM_PACKS], bag_after[SUM_PACKS];   /* p s.v- and p s.v+ under several */
+    Pack load_before[SUM_PACKS], load_after[SUM_PACKS]; /* loads and gravity likewise */
+    Pack kinetic[SUM_PACKS], steps[SUM_PACKS], compliance[SUM_PACKS], damping[SUM_PACKS];
+} ComponentSums;
+
+/* One chunk between its passes: sums over corners, and per node what is not the same for the whole chunk. */
+typedef struct NodeChunk {
+    int first, count; /* nodes */
+    double force[COMPONENTS + SUM_WIDTH], area[COMPONENTS + SUM_WIDTH];
+    double bag[BILLOW_NODE_CHUNK + SUM_WIDTH], load[BILLOW_NODE_CHUNK + SUM_WIDTH]; /* pressures */
+    double inverse[BILLOW_NODE_CHUNK + SUM_WIDTH], mass[BILLOW_NODE_CHUNK + SUM_WIDTH];
+    double stagnation[BILLOW_NODE_CHUNK + SUM_WIDTH]; /* pressure against the motion */
+    double gravity[COMPONENTS + SUM_WIDTH], damping[COMPONENTS + SUM_WIDTH], reference[COMPONENTS + SUM_WIDTH];
+} NodeChunk;
+
+/* Which terms a loop has: constants of each, so that it has no branch. */
+enum {
+    SEVERAL_PRESSURES = 1, /* nodes of the chunk are under different pressure sets */
+    BODY_TERMS = 2,        /* gravity, mass damping, stagnation pressure */
+};
+
+ALWAYS_INLINE double total(const Pack part[SUM_PACKS])
 {
-    return *(const LooseVector *)p;
+    double lane[SUM_WIDTH];
+    for (int i = 0; i < SUM_WIDTH; i++) lane[i] = part[i / PACK_WIDTH][i % PACK_WIDTH];
+    return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
 }
 
-static inline void store3(double *p, Vector v)
-{
-    memcpy(p, &v, 3 * sizeof *p);
-}
-
-static inline double sum3(Vector v)
-{
-    return v[0] + v[1] + v[2];
-}
-
-/* Stress forces f and area vector s of one node: sums over its corners in element order. */
-static inline void gather_node(const Workspace *w, int node, Vector *f, Vector *s)
+/* Stress forces f and area vectors s: sums over the corners of each node in element order. */
+ALWAYS_INLINE void gather_corners(const Workspace *w, NodeChunk *chunk)
 {
     const Model *m = w->model;
     const double *corner = w->corner;
-    const CornerPlace *end = m->corner_list + m->corner_start[node + 1];
-    Vector force = {0}, area = {0};
-    for (const CornerPlace *place = m->corner_list + m->corner_start[node]; place < end; place++) {
-        force += load3(corner + place->force);
-        area += load3(corner + place->share);
+    const CornerPlace *place = m->corner_list + m->corner_start[chunk->first];
+    const int32_t *start = m->corner_start + chunk->first;
+    for (int i = 0; i < chunk->count; i++) {
+        Vector force = {0}, area = {0};
+        for (const CornerPlace *end = m->corner_list + start[i + 1]; place < end; place++) {
+            force += *(const LooseVector *)(corner + place->force);
+            area += *(const LooseVector *)(corner + place->share);
+        }
+        *(LooseVector *)(chunk->force + 3 * i) = force;
+        *(LooseVector *)(chunk->area + 3 * i) = area;
     }
-    *f = force;
-    *s = area;
 }
 
-/* Full-step values of a node for the writers: v_n = v_{n-1/2} + a dt_before / 2 (eq. T3). */
-static inline void keep_view(Workspace *w, int node, Vector a, Vector v_full, Vector f)
+/* The terms of each node that the packs need per component. Stagnation pressure -q |s.v| s.v / s.s is against v-. */
+static void fill_terms(const Workspace *w, NodeChunk *chunk, int terms)
 {
-    store3(w->acceleration + 3 * (ptrdiff_t)node, a);
-    store3(w->velocity + 3 * (ptrdiff_t)node, v_full);
-    store3(w->force + 3 * (ptrdiff_t)node, f);
+    const Model *m = w->model;
+    for (int i = 0; i < chunk->count; i++) {
+        int node = chunk->first + i, set = m->node_pressure[node];
+        chunk->bag[i] = w->bag_pressure[set];
+        chunk->load[i] = w->load_pressure[set];
+        if (!(terms & BODY_TERMS)) continue;
+        int class = m->node_class ? m->node_class[node] : 0;
+        const double *s = chunk->area + 3 * i, *v = w->state->v + 3 * (ptrdiff_t)node;
+        double square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2], normal = s[0] * v[0] + s[1] * v[1] + s[2] * v[2];
+        chunk->stagnation[i] =
+            square == 0.0 ? 0.0 : -w->stagnation[set] * normal * (normal < 0.0 ? -normal : normal) / square;
+        memcpy(chunk->gravity + 3 * i, w->class_gravity + 3 * class, 3 * sizeof(double));
+        memcpy(chunk->damping + 3 * i, w->class_damping + 3 * class, 3 * sizeof(double));
+        memcpy(chunk->reference + 3 * i, w->class_velocity + 3 * class, 3 * sizeof(double));
+    }
 }
 
-/* v_{n+1/2} = v_{n-1/2} + a dt_mean, x_{n+1} = x_n + v_{n+1/2} dt_next (eq. T1, T2). */
+/* Values of PACK_WIDTH nodes to three packs of their components. */
+ALWAYS_INLINE void spread(Pack value, Pack out[3])
+{
+#if BILLOW_KERNEL_LEVEL >= 4
+    out[0] = __builtin_shufflevector(value, value, 0, 0, 0, 1, 1, 1, 2, 2);
+    out[1] = __builtin_shufflevector(value, value, 2, 3, 3, 3, 4, 4, 4, 5);
+    out[2] = __builtin_shufflevector(value, value, 5, 5, 6, 6, 6, 7, 7, 7);
+#elif BILLOW_KERNEL_LEVEL == 3
+    out[0] = __builtin_shufflevector(value, value, 0, 0, 0, 1);
+    out[1] = __builtin_shufflevector(value, value, 1, 1, 2, 2);
+    out[2] = __builtin_shufflevector(value, value, 2, 3, 3, 3);
+#else
+    out[0] = __builtin_shufflevector(value, value, 0, 0);
+    out[1] = __builtin_shufflevector(value, value, 0, 1);
+    out[2] = __builtin_shufflevector(value, value, 1, 1);
+#endif
+}
+
+ALWAYS_INLINE Pack loose_load(const double *from)
+{
+    return *(const LoosePack *)from;
+}
+
+/* Where a pack of components is read and written: the State's arrays, or the tail's copies. */
+typedef struct ComponentPlace {
+    double *x, *v;
+    double *acceleration, *full, *force; /* full-step view, NULL unless this cycle emits */
+} ComponentPlace;
+
+/* Full-step values for the writers: v_n = v_{n-1/2} + a dt_before / 2 (eq. T3). */
+ALWAYS_INLINE void keep_view(const ComponentPlace *at, Pack a, Pack full, Pack f)
+{
+    *(LoosePack *)at->acceleration = a;
+    *(LoosePack *)at->full = full;
+    *(LoosePack *)at->force = f;
+}
+
+/* PACK_WIDTH components, the j-th of the chunk first: v_{n+1/2} = v_{n-1/2} + a dt_mean, x_{n+1} = x_n + v_{n+1/2}
+ * dt_next (eq. T1, T2). bag, load, stagnation, inverse, mass: of the components' nodes. */
+typedef struct NodeTerms {
+    Pack bag[3], load[3], stagnation[3], inverse[3], mass[3];
+} NodeTerms;
+
+ALWAYS_INLINE void integrate_pack(int terms, const CyclePlan *plan, const NodeChunk *chunk, const NodeTerms *of,
+                                  int third, int j, const ComponentPlace *at, ComponentSums *sums)
+{
+    int lane = j / PACK_WIDTH % SUM_PACKS;
+    Pack s = loose_load(chunk->area + j), old = loose_load(at->v), inverse = of->inverse[third], now, a;
+    Pack bag = of->bag[third], load = of->load[third], f = loose_load(chunk->force + j) + (bag + load) * s;
+    Pack mass = of->mass[third];
+    if (terms & BODY_TERMS) {
+        /* damping at the mean velocity: v+ (1 + D dt/2) = v- (1 - D dt/2) + D dt v_ref + a dt (eq. T4), stable for any D */
+        Pack gravity = loose_load(chunk->gravity + j), damping = loose_load(chunk->damping + j),
+             reference = loose_load(chunk->reference + j), stagnation = of->stagnation[third];
+        f += stagnation * s;
+        Pack pushed = f * inverse + gravity, d = damping * plan->dt_mean;
+        now = (old * (1.0 - 0.5 * d) + d * reference + pushed * plan->dt_mean) / (1.0 + 0.5 * d);
+        Pack mean = 0.5 * (old + now), drag = damping * (mean - reference);
+        a = pushed - drag;
+        sums->load_before[lane] += mass * (gravity * old);
+        sums->load_after[lane] += mass * (gravity * now);
+        sums->damping[lane] += mass * (drag * mean) - stagnation * (s * mean);
+    } else {
+        a = f * inverse;
+        now = old + plan->dt_mean * a;
+    }
+    Pack full = old + (0.5 * plan->dt_before) * a;
+    *(LoosePack *)at->v = now;
+    *(LoosePack *)at->x = loose_load(at->x) + (plan->emit ? 0.0 : plan->dt_next) * now;
+    if (terms & SEVERAL_PRESSURES) {
+        sums->bag_before[lane] += bag * (s * old);
+        sums->bag_after[lane] += bag * (s * now);
+        sums->load_before[lane] += load * (s * old);
+        sums->load_after[lane] += load * (s * now);
+    } else {
+        sums->before[lane] += s * old;
+        sums->after[lane] += s * now;
+    }
+    sums->kinetic[lane] += mass * (full * full);
+    sums->steps[lane] += mass * (old * now);
+    sums->compliance[lane] += inverse * (s * s);
+    if (at->acceleration) keep_view(at, a, full, f);
+}
+
+/* The terms of PACK_WIDTH nodes from the i-th of the chunk on. */
+ALWAYS_INLINE void spread_terms(int terms, const NodeChunk *chunk, const double *inverse, const double *mass, int i,
+                                NodeTerms *of)
+{
+    spread(loose_load(inverse), of->inverse);
+    spread(loose_load(mass), of->mass);
+    if (terms & BODY_TERMS) spread(loose_load(chunk->stagnation + i), of->stagnation);
+    if (!(terms & SEVERAL_PRESSURES)) return;
+    spread(loose_load(chunk->bag + i), of->bag);
+    spread(loose_load(chunk->load + i), of->load);
+}
+
+ALWAYS_INLINE ComponentPlace find_place(Workspace *w, ptrdiff_t component)
+{
+    ComponentPlace at = {w->state->x + component, w->state->v + component, NULL, NULL, NULL};
+    if (w->plan.emit) {
+        at.acceleration = w->acceleration + component;
+        at.full = w->velocity + component;
+        at.force = w->force + component;
+    }
+    return at;
+}
+
+/* The last nodes of a chunk, fewer than a pack: on copies, whose empty lanes have neither mass nor area. */
+ALWAYS_INLINE void integrate_tail(int terms, Workspace *w, NodeChunk *chunk, int i, NodeTerms *of, ComponentSums *sums)
+{
+    enum { TAIL = 3 * PACK_WIDTH };
+    double copy[5][TAIL] = {{0}}, inverse[PACK_WIDTH] = {0}, mass[PACK_WIDTH] = {0};
+    int left = chunk->count - i;
+    size_t size = 3 * (size_t)left * sizeof(double);
+    ComponentPlace home = find_place(w, 3 * ((ptrdiff_t)chunk->first + i));
+    memcpy(copy[0], home.x, size);
+    memcpy(copy[1], home.v, size);
+    memcpy(inverse, w->model->inverse_mass + chunk->first + i, (size_t)left * sizeof(double));
+    memcpy(mass, w->model->mass + chunk->first + i, (size_t)left * sizeof(double));
+    memset(chunk->force + 3 * chunk->count, 0, SUM_WIDTH * sizeof(double));
+    memset(chunk->area + 3 * chunk->count, 0, SUM_WIDTH * sizeof(double));
+    for (int j = 3 * chunk->count; j < 3 * i + TAIL && j < COMPONENTS; j++) chunk->force[j] = chunk->area[j] = 0.0;
+    spread_terms(terms, chunk, inverse, mass, i, of);
+    for (int third = 0; third < 3; third++) {
+        int at = third * PACK_WIDTH;
+        ComponentPlace place = {copy[0] + at, copy[1] + at, NULL, NULL, NULL};
+        if (home.acceleration) {
+            place.acceleration = copy[2] + at;
+            place.full = copy[3] + at;
+            place.force = copy[4] + at;
+        }
+        integrate_pack(terms, &w->plan, chunk, of, third, 3 * i + at, &place, sums);
+    }
+    memcpy(home.x, copy[0], size);
+    memcpy(home.v, copy[1], size);
+    if (!home.acceleration) return;
+    memcpy(home.acceleration, copy[2], size);
+    memcpy(home.full, copy[3], size);
+    memcpy(home.force, copy[4], size);
+}
+
+ALWAYS_INLINE void finish_sums(int terms, const Workspace *w, int set, const ComponentSums *sums, NodeSums *out)
+{
+    *out = (NodeSums){.kinetic = 0.5 * total(sums->kinetic),
+                      .kinetic_steps = 0.5 * total(sums->steps),
+                      .compliance = total(sums->compliance),
+                      .damping = total(sums->damping) * w->plan.dt_mean,
+                      .load_before = total(sums->load_before),
+                      .load_after = total(sums->load_after)};
+    double before = total(sums->before), after = total(sums->after);
+    out->bag_before = terms & SEVERAL_PRESSURES ? total(sums->bag_before) : w->bag_pressure[set] * before;
+    out->bag_after = terms & SEVERAL_PRESSURES ? total(sums->bag_after) : w->bag_pressure[set] * after;
+    if (terms & SEVERAL_PRESSURES) return;
+    out->load_before += w->load_pressure[set] * before;
+    out->load_after += w->load_pressure[set] * after;
+}
+
+ALWAYS_INLINE void advance_chunk(int terms, Workspace *w, int first, int end, NodeSums *out)
+{
+    NodeChunk chunk;
+    NodeTerms of;
+    ComponentSums sums = {0};
+    const CyclePlan plan = w->plan;
+    int set = w->model->node_pressure[first], i = 0;
+    chunk.first = first;
+    chunk.count = end - first;
+    gather_corners(w, &chunk);
+    if (terms) fill_terms(w, &chunk, terms);
+    for (int k = 0; k < 3; k++) {
+        of.bag[k] = pack_of(w->bag_pressure[set]);
+        of.load[k] = pack_of(w->load_pressure[set]);
+    }
+    for (; i + PACK_WIDTH <= chunk.count; i += PACK_WIDTH) {
+        spread_terms(terms, &chunk, w->model->inverse_mass + first + i, w->model->mass + first + i, i, &of);
+        ComponentPlace at = find_place(w, 3 * ((ptrdiff_t)first + i));
+        for (int third = 0; third < 3; third++) {
+            integrate_pack(terms, &plan, &chunk, &of, third, 3 * i + third * PACK_WIDTH, &at, &sums);
+            at.x += PACK_WIDTH;
+            at.v += PACK_WIDTH;
+            if (!at.acceleration) continue;
+            at.acceleration += PACK_WIDTH;
+            at.full += PACK_WIDTH;
+            at.force += PACK_WIDTH;
+        }
+    }
+    if (i < chunk.count) integrate_tail(terms, w, &chunk, i, &of, &sums);
+    finish_sums(terms, w, set, &sums, out);
+}
+
 static void lean_chunk(Workspace *w, int first, int end, NodeSums *sums)
 {
-    const Model *m = w->model;
-    const CyclePlan plan = w->plan;
-    double *x = w->state->x, *v = w->state->v;
-    double half_before = 0.5 * plan.dt_before, advance = plan.emit ? 0.0 : plan.dt_next;
-    Vector bag_before = {0}, bag_after = {0}, load_before = {0}, load_after = {0}, kinetic = {0}, steps = {0},
-           compliance = {0};
-    for (int node = first; node < end; node++) {
-        Vector f, s;
-        gather_node(w, node, &f, &s);
-        int set = m->node_pressure[node];
-        double bag = w->bag_pressure[set], load = w->load_pressure[set], inverse = m->inverse_mass[node];
-        double *vn = v + 3 * (ptrdiff_t)node, *xn = x + 3 * (ptrdiff_t)node;
-        Vector old = load3(vn);
-        f += (bag + load) * s;
-        Vector a = f * inverse, full = old + half_before * a, now = old + plan.dt_mean * a;
-        store3(vn, now);
-        store3(xn, load3(xn) + advance * now);
-        Vector before = s * old, after = s * now;
-        bag_before += bag * before;
-        bag_after += bag * after;
-        load_before += load * before;
-        load_after += load * after;
-        kinetic += (0.5 * m->mass[node]) * (full * full);
-        steps += (0.5 * m->mass[node]) * (old * now);
-        compliance += inverse * (s * s);
-        if (plan.emit) keep_view(w, node, a, full, f);
+    const int32_t *set = w->model->node_pressure;
+    for (int i = first + 1; i < end; i++) {
+        if (set[i] == set[first]) continue;
+        advance_chunk(SEVERAL_PRESSURES, w, first, end, sums);
+        return;
     }
-    *sums = (NodeSums){.kinetic = sum3(kinetic),
-                       .kinetic_steps = sum3(steps),
-                       .bag_before = sum3(bag_before),
-                       .bag_after = sum3(bag_after),
-                       .load_before = sum3(load_before),
-                       .load_after = sum3(load_after),
-                       .compliance = sum3(compliance)};
+    advance_chunk(0, w, first, end, sums);
 }
 
-/* The same with body acceleration and mass damping by node class, and stagnation pressure. Damping is taken at the mean
- * velocity: v+ (1 + D dt/2) = v- (1 - D dt/2) + D dt v_ref + a dt, stable for any D (eq. T4). */
 static void general_chunk(Workspace *w, int first, int end, NodeSums *sums)
 {
-    const Model *m = w->model;
-    const CyclePlan plan = w->plan;
-    double *x = w->state->x, *v = w->state->v;
-    NodeSums t = {0};
-    double advance = plan.emit ? 0.0 : plan.dt_next;
-    for (int node = first; node < end; node++) {
-        Vector f, s;
-        gather_node(w, node, &f, &s);
-        int set = m->node_pressure[node], class = m->node_class ? m->node_class[node] : 0;
-        double bag = w->bag_pressure[set], load = w->load_pressure[set];
-        double inverse = m->inverse_mass[node], mass = m->mass[node];
-        double *vn = v + 3 * (ptrdiff_t)node, *xn = x + 3 * (ptrdiff_t)node;
-        Vector gravity = load3(w->class_gravity + 3 * class), damping = load3(w->class_damping + 3 * class),
-               reference = load3(w->class_velocity + 3 * class), old = load3(vn);
-        double area2 = sum3(s * s), normal = sum3(s * old);
-        double stagnation =
-            area2 == 0.0 ? 0.0 : -w->stagnation[set] * normal * (normal < 0.0 ? -normal : normal) / area2;
-        f += (bag + load + stagnation) * s;
-        Vector force = f * inverse + gravity, d = damping * plan.dt_mean;
-        Vector now = (old * (1.0 - 0.5 * d) + d * reference + force * plan.dt_mean) / (1.0 + 0.5 * d);
-        Vector mean = 0.5 * (old + now), drag = damping * (mean - reference), a = force - drag;
-        Vector full = old + (0.5 * plan.dt_before) * a;
-        store3(vn, now);
-        store3(xn, load3(xn) + advance * now);
-        t.bag_before += bag * normal;
-        t.bag_after += bag * sum3(s * now);
-        t.load_before += load * normal + mass * sum3(gravity * old);
-        t.load_after += load * sum3(s * now) + mass * sum3(gravity * now);
-        t.damping += (mass * sum3(drag * mean) - stagnation * sum3(s * mean)) * plan.dt_mean;
-        t.kinetic += 0.5 * mass * sum3(full * full);
-        t.kinetic_steps += 0.5 * mass * sum3(old * now);
-        t.compliance += area2 * inverse;
-        if (plan.emit) keep_view(w, node, a, full, f);
-    }
-    *sums = t;
+    advance_chunk(SEVERAL_PRESSURES | BODY_TERMS, w, first, end, sums);
 }
 
 const NodeKernels BILLOW_NODE_TABLE = {lean_chunk, general_chunk};
