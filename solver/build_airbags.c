@@ -13,6 +13,27 @@ static int curve_of(Builder *b, int id, const char *field, Source source, int *s
     return index;
 }
 
+/* The same for fields that take functions too, which are listed with the bag. *DEFINE_FUNCTION gets at most pressure,
+ * volume and time. */
+static int exit_curve_of(Builder *b, Airbag *bag, int id, const char *field, Source source, int *status)
+{
+    if (id == 0) return -1;
+    int index = deck_index_curve_or_function(&b->index, id < 0 ? -id : id, field, source, "*AIRBAG", b->diagnostics);
+    int function = index - b->model->curve_count;
+    if (index < 0) *status = -1;
+    if (function < 0) return index;
+    if (b->model->functions[function].argument_count > 3) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, source, "*AIRBAG",
+                        "%s = %d: the function has %d arguments, but gets three: pressure, volume and time", field, id,
+                        b->model->functions[function].argument_count);
+        *status = -1;
+    }
+    for (int i = 0; i < bag->function_count; i++)
+        if (bag->function[i] == function) return index;
+    bag->function[bag->function_count++] = function;
+    return index;
+}
+
 static int input_error(Builder *b, Source source, const char *text)
 {
     diagnostics_add(b->diagnostics, SEVERITY_ERROR, source, "*AIRBAG", "%s", text);
@@ -66,9 +87,10 @@ static int simple_gas(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     return status;
 }
 
-static int wang_nefske_gas(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+static int wang_nefske_gas(Builder *b, const AirbagDefinition *bag, Airbag *built)
 {
     int status = 0;
+    GasModel *gas = &built->gas;
     gas->kind = GAS_WANG_NEFSKE;
     gas->temperature_curve = curve_of(b, bag->lct, "LCT", bag->card3, &status);
     gas->temperature_rate_curve = curve_of(b, bag->lcdt, "LCDT", bag->card3, &status);
@@ -83,17 +105,18 @@ static int wang_nefske_gas(Builder *b, const AirbagDefinition *bag, GasModel *ga
     gas->vent_coefficient = bag->c23;
     gas->vent_area = bag->a23;
     if (bag->c23 == 0.0 && bag->lcc23 < 0)
-        gas->vent_coefficient_ratio_curve = curve_of(b, bag->lcc23, "LCC23", bag->card4, &status);
+        gas->vent_coefficient_ratio_curve = exit_curve_of(b, built, bag->lcc23, "LCC23", bag->card4, &status);
     else if (bag->c23 == 0.0)
-        gas->vent_coefficient_time_curve = curve_of(b, bag->lcc23, "LCC23", bag->card4, &status);
-    if (bag->a23 == 0.0) gas->vent_area_pressure_curve = curve_of(b, bag->lca23, "LCA23", bag->card4, &status);
+        gas->vent_coefficient_time_curve = exit_curve_of(b, built, bag->lcc23, "LCC23", bag->card4, &status);
+    if (bag->a23 == 0.0)
+        gas->vent_area_pressure_curve = exit_curve_of(b, built, bag->lca23, "LCA23", bag->card4, &status);
     if (bag->opt == 0.0) {
         gas->porosity_coefficient = bag->cp23;
         gas->porosity_area = bag->ap23;
         if (bag->cp23 == 0.0)
-            gas->porosity_coefficient_time_curve = curve_of(b, bag->lccp23, "LCCP23", bag->card4, &status);
+            gas->porosity_coefficient_time_curve = exit_curve_of(b, built, bag->lccp23, "LCCP23", bag->card4, &status);
         if (bag->ap23 == 0.0)
-            gas->porosity_area_pressure_curve = curve_of(b, bag->lcap23, "LCAP23", bag->card4, &status);
+            gas->porosity_area_pressure_curve = exit_curve_of(b, built, bag->lcap23, "LCAP23", bag->card4, &status);
     }
     gas->exit_flow_curve = curve_of(b, bag->lcefr, "LCEFR", bag->card5, &status);
     gas->overpressure = bag->pover;
@@ -119,8 +142,8 @@ static int build_airbag(Builder *b, int number)
     bag->source = definition->source;
     gas_model_reset(&bag->gas);
     if (common_fields(b, definition, &bag->gas)) return -1;
-    int status = definition->model == AIRBAG_SIMPLE ? simple_gas(b, definition, &bag->gas)
-                                                    : wang_nefske_gas(b, definition, &bag->gas);
+    int status =
+        definition->model == AIRBAG_SIMPLE ? simple_gas(b, definition, &bag->gas) : wang_nefske_gas(b, definition, bag);
     bag->ambient = bag->gas.ambient_pressure;
     if (status) return -1;
     GasState start;

@@ -207,6 +207,7 @@ int build_renumber(Builder *b)
     if (!status) status = fill_nodes(b, keys);
     if (!status) {
         renumber_lists(b, new_index);
+        renumber_functions(b, new_index);
         status = motion_renumber(&b->motion, new_index);
     }
     void *blocks[] = {position, new_index, class, keys, adjacency.start, adjacency.record};

@@ -56,10 +56,12 @@ void *builder_alloc(Builder *builder, size_t count, size_t size);
 int builder_adopt(Builder *builder, void *block);
 
 /* The stages, in order; 0, or -1 after reporting an error. Later stages need earlier ones to have succeeded. */
-int build_parts(Builder *builder);  /* materials, sections -> laws */
-int build_shells(Builder *builder); /* shells -> records, masses */
-int build_curves(Builder *builder);
-int build_surfaces(Builder *builder);      /* airbags' surfaces: orientation and caps */
+int build_parts(Builder *builder);                                   /* materials, sections -> laws */
+int build_shells(Builder *builder);                                  /* shells -> records, masses */
+int build_curves(Builder *builder);                                  /* and functions */
+int build_functions(Builder *builder);                               /* by build_curves */
+void renumber_functions(Builder *builder, const int32_t *new_index); /* by build_renumber */
+int build_surfaces(Builder *builder);                                /* airbags' surfaces: orientation and caps */
 int build_pressure_sets(Builder *builder); /* and segment loads -> pressure sets; after build_motion */
 int build_airbags(Builder *builder);       /* gas models; after build_surfaces */
 int build_output(Builder *builder);        /* termination, step control, output plan */

@@ -17,12 +17,13 @@ void definitions_free(Definitions *d)
         memory_free(d->curves.items[i].y.items);
         memory_free(d->curves.items[i].lines.items);
     }
+    for (size_t i = 0; i < d->functions.count; i++) memory_free(d->functions.items[i].program.code);
     void *lists[] = {d->nodes.items,         d->shells.items,      d->parts.items,         d->sections.items,
                      d->materials.items,     d->hourglasses.items, d->sets.items,          d->curves.items,
                      d->coordinates.items,   d->vectors.items,     d->boxes.items,         d->adaptivities.items,
                      d->databases.items,     d->histories.items,   d->spcs.items,          d->motions.items,
                      d->velocities.items,    d->node_loads.items,  d->segment_loads.items, d->body_loads.items,
-                     d->gravity_parts.items, d->dampings.items,    d->airbags.items};
+                     d->gravity_parts.items, d->dampings.items,    d->airbags.items,       d->functions.items};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) memory_free(lists[i]);
     memset(d, 0, sizeof *d);
 }

@@ -10,6 +10,7 @@
 
 #include "solver/billow.h"
 #include "solver/diagnostics.h"
+#include "solver/function.h"
 
 /* A growing array of records: item type T, e.g. LIST(NodeDefinition) nodes. Grow with memory_reserve. */
 #define LIST(T)                                                                                                        \
@@ -131,6 +132,15 @@ typedef struct CurveDefinition {
     LIST(int) lines; /* line of each point */
     Source source;
 } CurveDefinition;
+
+/* *DEFINE_CURVE_FUNCTION and *DEFINE_FUNCTION, compiled; owns program.code. */
+typedef struct FunctionDefinition {
+    int id, sidr;
+    bool is_curve; /* *DEFINE_CURVE_FUNCTION: shares its ids with *DEFINE_CURVE */
+    char title[BILLOW_TITLE_LENGTH];
+    FunctionProgram program;
+    Source source;
+} FunctionDefinition;
 
 /* *DEFINE_COORDINATE_NODES: three nodes; _SYSTEM: origin, point on x, point in xy; _VECTOR: x axis and xy vector. */
 typedef struct CoordinateDefinition {
@@ -331,6 +341,7 @@ typedef struct Definitions {
     LIST(HourglassDefinition) hourglasses;
     LIST(SetDefinition) sets;
     LIST(CurveDefinition) curves;
+    LIST(FunctionDefinition) functions;
     LIST(CoordinateDefinition) coordinates;
     LIST(VectorDefinition) vectors;
     LIST(BoxDefinition) boxes;

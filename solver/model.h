@@ -18,6 +18,7 @@
 #include "solver/constraints.h"
 #include "solver/curve.h"
 #include "solver/diagnostics.h"
+#include "solver/function.h"
 #include "solver/loads.h"
 #include "solver/rigid_body.h"
 
@@ -74,6 +75,8 @@ typedef struct Part {
     double density, thickness;
 } Part;
 
+enum { BILLOW_BAG_FUNCTIONS = 8 };
+
 /* One control volume. */
 typedef struct Airbag {
     int id; /* the user's, or counted from 1 in deck order */
@@ -86,6 +89,8 @@ typedef struct Airbag {
     int part_count;
     int *node; /* nodes on its surface (node_count), ascending */
     int node_count;
+    int function[BILLOW_BAG_FUNCTIONS]; /* indices of the functions that the gas uses (function_count) */
+    int function_count;
     double ambient; /* pressure outside: applied pressure = p - ambient */
     Source source;
 } Airbag;
@@ -137,7 +142,9 @@ typedef struct Model {
     int airbag_count;
     Airbag *airbags;
     int curve_count;
-    Curve *curves;
+    Curve *curves; /* (curve_count + function_count): after the curves one of a single point for each function */
+    int function_count;
+    FunctionProgram *functions; /* solver/function.h, set as curves in solver/step_functions.c */
     int segment_load_count;
     SegmentLoad *segment_loads; /* solver/loads.h */
     Loads loads;                /* node loads, body classes: solver/loads.h */

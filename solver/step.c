@@ -102,7 +102,7 @@ static int allocate(Workspace *w)
                       w->newton};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
-    return 0;
+    return step_functions_allocate(w);
 }
 
 static void release(Workspace *w)
@@ -114,6 +114,7 @@ static void release(Workspace *w)
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
                       w->newton};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
+    step_functions_release(w);
 }
 
 static void prepare(Workspace *w)

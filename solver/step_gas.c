@@ -95,15 +95,16 @@ static int advance_bags(Workspace *w)
             w->bag_area[set->source[k]] += w->set_area[s];
         }
     }
-    if (!(w->plan.dt_before > 0.0)) return 0;
     for (int i = 0; i < m->airbag_count; i++) {
         const Airbag *bag = &m->airbags[i];
+        if (bag->function_count > 0 && step_functions_evaluate(w, i)) return -1;
+        if (!(w->plan.dt_before > 0.0)) continue;
         GasStep step = {.time = w->plan.time - w->plan.dt_before,
                         .dt = w->plan.dt_before,
                         .volume = w->bag_volume[i],
                         .area = w->bag_area[i]};
         const char *why = "";
-        if (gas_advance(&bag->gas, m->curves, bag->vsca, bag->psca, bag->vini, &step, &w->state->gas[i], &why)) {
+        if (gas_advance(&bag->gas, w->curves, bag->vsca, bag->psca, bag->vini, &step, &w->state->gas[i], &why)) {
             step_fail(w,
                       "look at the last state written: walls that pass through each other or a step that is too large "
                       "do this; lower TSSFAC, or close the bag",
@@ -143,12 +144,13 @@ static void set_classes(Workspace *w)
 
 /* A step that resolves the gas when no element asks for one: its own time scale, and a thousandth of the period scale
  * of walls that move on it. */
-static double gas_step(const Workspace *w, double gas_rate)
+static double gas_step(Workspace *w, double gas_rate)
 {
     const Model *m = w->model;
     double step = m->end_time / 1000.0;
     for (int i = 0; i < m->airbag_count; i++) {
-        double own = gas_time_scale(&m->airbags[i].gas, m->curves, &w->state->gas[i], w->plan.time);
+        if (m->airbags[i].function_count > 0) step_functions_select(w, i);
+        double own = gas_time_scale(&m->airbags[i].gas, w->curves, &w->state->gas[i], w->plan.time);
         step = own < step ? own : step;
     }
     if (gas_rate > 0.0 && 0.001 / sqrt(gas_rate) < step) step = 0.001 / sqrt(gas_rate);

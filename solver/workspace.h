@@ -79,6 +79,9 @@ typedef struct Workspace {
     bool closed;                        /* energies of the last cycle are in the ledger */
     double element_step;                /* stable step of the elements before TSSFAC */
     CyclePlan plan;
+    const Curve *curves;    /* the model's, or live_curves if the model has functions */
+    Curve *live_curves;     /* the model's with the functions' values */
+    double *function_value; /* (airbag_count x function_count) */
 } Workspace;
 
 /* Loops over nodes [first, end) of the lean range, one table per instruction set. */
@@ -100,6 +103,10 @@ void step_tick(Workspace *w);                                       /* thread 0:
 void step_emit(Workspace *w);                                       /* thread 0: full-step view to the hooks */
 void step_advance_positions(Workspace *w, int thread, int threads); /* all threads, after an emitting cycle */
 void step_close_energies(Workspace *w);                             /* thread 0: ledger at t_n */
+int step_functions_allocate(Workspace *w);                          /* -1 without memory */
+void step_functions_release(Workspace *w);
+int step_functions_evaluate(Workspace *w, int airbag); /* thread 0: values for this bag and cycle, then selected */
+void step_functions_select(Workspace *w, int airbag);  /* w->curves give this bag's values */
 void step_fail(Workspace *w, const char *advice, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 #endif
