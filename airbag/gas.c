@@ -121,7 +121,8 @@ static int count_substeps(const GasModel *gas, const GasLaw *law, const Curve *c
                           double volume, const GasState *state)
 {
     GasTank tank = {state->tank_pressure, state->tank_temperature};
-    GasInflow inflow = gas_inflow(gas, law, curves, step->time, step->time + step->dt, &tank);
+    GasInflow inflow = gas_inflow(gas, law, curves, step->time - state->inflow_start,
+                                  step->time + step->dt - state->inflow_start, &tank);
     GasExit exit = gas_exit_flow(gas, law, curves, step->time, state->pressure, state->temperature);
     double out = (exit.vent + exit.porosity) * step->dt;
     int heat = gas->heat_transfer > 0.0 || gas->heat_transfer_curve >= 0;

@@ -68,7 +68,8 @@ typedef struct GasState {
     double guard;                           /* smallest gas volume [L3] */
     double flat;                            /* 1 as long as a bag that started flat is flat */
     double tank_pressure, tank_temperature; /* of the tank test behind tank_pressure_curve, cp(T) only */
-    double carry[8];                        /* rounding errors of the ledger's sums (gas_ledger.h) */
+    double inflow_start; /* time that the inflow's curves count from: 0, or when the sensor fires; before, infinity */
+    double carry[8];     /* rounding errors of the ledger's sums (gas_ledger.h) */
 } GasState;
 
 /* Everything 0, all curves -1, gravity_conversion 1. */

@@ -152,7 +152,8 @@ void gas_exchange(const GasModel *gas, const GasLaw *law, const Curve *curves, d
     gas_lose_heat(gas, law, curves, time, time + 0.5 * span, area, state);
     update_state_of_gas(law, state);
     GasTank tank = {state->tank_pressure, state->tank_temperature};
-    GasInflow inflow = gas_inflow(gas, law, curves, time, time + span, &tank);
+    GasInflow inflow =
+        gas_inflow(gas, law, curves, time - state->inflow_start, time + span - state->inflow_start, &tank);
     state->tank_pressure = tank.pressure;
     state->tank_temperature = tank.temperature;
     if (state->opened > 0.0) {

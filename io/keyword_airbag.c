@@ -1,7 +1,7 @@
 /* *AIRBAG_SIMPLE_AIRBAG_MODEL and *AIRBAG_WANG_NEFSKE. */
 #include <string.h>
 
-#include "io/keyword_table.h"
+#include "io/keyword_airbag_sensor.h"
 
 typedef struct BagIdCard {
     int id;
@@ -15,7 +15,7 @@ static const FieldSpec id_fields[] = {CARD_INT("ABID", id, USED, ID_OTHER), CARD
 #define AT(member) offsetof(AirbagDefinition, member)
 static const FieldSpec core_fields[] = {
     CARD_INT("SID", sid, USED, ID_SET),          CARD_INT("SIDTYP", sidtyp, USED, NONE),
-    CARD_INT("RBID", rbid, REFUSED, NONE),       CARD_REAL_OR("VSCA", vsca, 1.0, USED, NONE),
+    CARD_INT("RBID", rbid, USED, NONE),          CARD_REAL_OR("VSCA", vsca, 1.0, USED, NONE),
     CARD_REAL_OR("PSCA", psca, 1.0, USED, NONE), CARD_REAL("VINI", vini, USED, VOLUME),
     CARD_REAL("MWD", mwd, USED, RATE),           CARD_REAL("SPSF", spsf, USED, NONE),
 };
@@ -74,19 +74,21 @@ static const FieldSpec wang7_fields[] = {
 #undef AT
 
 enum { BAG_ID };
-enum { BAG_ID_CARD, BAG_CORE_CARD };
-enum { SIMPLE_CARD3 = 2, SIMPLE_CARD4A, SIMPLE_CARD4B };
+enum { BAG_ID_CARD, BAG_CORE_CARD, BAG_SENSOR_CARD, BAG_MODEL_CARD = BAG_SENSOR_CARD + AIRBAG_SENSOR_CARD_COUNT };
+enum { SIMPLE_CARD3 = BAG_MODEL_CARD, SIMPLE_CARD4A, SIMPLE_CARD4B };
 static const CardSpec simple_cards[] = {
     {"ID card", "with ID", CARD_FIELDS(id_fields)},
     {"card 1", "", CARD_FIELDS(core_fields)},
+    AIRBAG_SENSOR_CARDS,
     {"card 3", "", CARD_FIELDS(simple3_fields)},
     {"card 4a", "if CV = 0", CARD_FIELDS(simple4a_fields)},
     {"card 4b", "if CV is not 0; may be left out", CARD_FIELDS(simple4b_fields)},
 };
-enum { WANG_CARD3 = 2, WANG_CARD4, WANG_CARD5, WANG_CARD6, WANG_CARD6_SPARE, WANG_CARD7 };
+enum { WANG_CARD3 = BAG_MODEL_CARD, WANG_CARD4, WANG_CARD5, WANG_CARD6, WANG_CARD6_SPARE, WANG_CARD7 };
 static const CardSpec wang_cards[] = {
     {"ID card", "with ID", CARD_FIELDS(id_fields)},
     {"card 1", "", CARD_FIELDS(core_fields)},
+    AIRBAG_SENSOR_CARDS,
     {"card 3", "", CARD_FIELDS(wang3_fields)},
     {"card 4", "", CARD_FIELDS(wang4_fields)},
     {"card 5", "", CARD_FIELDS(wang5_fields)},
@@ -95,7 +97,7 @@ static const CardSpec wang_cards[] = {
     {"card 7", "if CV = 0", CARD_FIELDS(wang7_fields)},
 };
 
-/* ID card and card 1. A sensor's cards would follow card 1, so that what comes after it cannot be understood. */
+/* ID card, card 1 and the sensor's cards. */
 static int read_core(KeywordRead *read, AirbagDefinition *bag)
 {
     int status = 0;
@@ -110,6 +112,7 @@ static int read_core(KeywordRead *read, AirbagDefinition *bag)
     }
     if (keyword_card(read, BAG_CORE_CARD, bag, true, &bag->card1)) return -1;
     if (!keyword_check_id(read, bag->sid, "SID", bag->card1)) status = -1;
+    if (airbag_read_sensor(read, BAG_SENSOR_CARD, bag)) status = -1;
     return status;
 }
 
@@ -200,20 +203,22 @@ static const KeywordSpec specs[] = {
     {.name = "*AIRBAG_SIMPLE_AIRBAG_MODEL",
      .options = {"ID"},
      .cards = simple_cards,
-     .card_count = 5,
+     .card_count = sizeof simple_cards / sizeof *simple_cards,
      .read = read_simple,
      .remark = "SIDTYP 0: SID is a segment set, else a part set. MU < 0 and AREA < 0 name curves over the absolute "
-               "pressure. The sensor cards of RBID are refused."},
+               "pressure. RBID < 0 is the built-in sensor, RBID > 0 the user's (--sensor-library); both shift LCID."},
     {.name = "*AIRBAG_WANG_NEFSKE",
      .options = {"ID"},
      .cards = wang_cards,
-     .card_count = 8,
+     .card_count = sizeof wang_cards / sizeof *wang_cards,
      .read = read_wang_nefske,
      .remark =
          "Input is a mass flow (LCMT) or a tank pressure (LCMT with TVOL); the inflator of card 6 is refused. GC = 0 "
          "means 1. LCC23 < 0 names a curve over the pressure ratio; A23 < 0 (vent parts) is refused. OPT 1 to 8 "
          "switches CP23 and AP23 off; leakage through the fabric itself (FLC, FAC) is refused where it is not "
-         "zero. HCONV < 0 names a curve over time. The options POP, JETTING, MULTIPLE_JETTING and CM are refused."},
+         "zero. HCONV < 0 names a curve over time. RBID < 0 is the built-in sensor, RBID > 0 the user's "
+         "(--sensor-library); both shift LCMT, LCT and LCDT. "
+         "The options POP, JETTING, MULTIPLE_JETTING and CM are refused."},
 };
 
 const KeywordFamily keyword_family_airbag = {"Airbags", specs, (int)(sizeof specs / sizeof *specs)};

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "airbag/billow_sensor.h"
 #include "solver/billow.h"
 #include "solver/diagnostics.h"
 #include "solver/function.h"
@@ -306,6 +307,13 @@ typedef struct DampingDefinition { /* *DAMPING_GLOBAL (part 0) and *DAMPING_PART
 
 typedef enum AirbagModel { AIRBAG_SIMPLE, AIRBAG_WANG_NEFSKE } AirbagModel;
 
+/* Cards 2a or 2b of *AIRBAG with RBID. */
+typedef struct SensorCards {
+    double a[4], tdur, dv[4], u[4]; /* levels of x, y, z and magnitude */
+    int n;                          /* user's constants */
+    double c[BILLOW_SENSOR_CONSTANTS];
+} SensorCards;
+
 /* *AIRBAG_<model>(_ID): cards as in the manual; the Source of every card so that messages name the right line. */
 typedef struct AirbagDefinition {
     AirbagModel model;
@@ -326,6 +334,7 @@ typedef struct AirbagDefinition {
     int lcefr, knkdn;
     double ioc, ioa, ivol, iro, it; /* WANG_NEFSKE 6 */
     int lcbf;
+    SensorCards sensor;
     Source source, card1, card3, card4, card5, card6, card7;
 } AirbagDefinition;
 

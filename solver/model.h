@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #include "airbag/gas.h"
+#include "airbag/sensor.h"
 #include "airbag/surface.h"
 #include "elements/law.h"
 #include "solver/billow.h"
@@ -141,6 +142,10 @@ typedef struct Model {
     Part *parts;
     int airbag_count;
     Airbag *airbags;
+    int sensor_count;
+    Sensor *sensors;      /* airbag/sensor.h (sensor_count) */
+    int *sensor_airbag;   /* index of the airbag that each starts (sensor_count) */
+    void *sensor_library; /* handle of dlopen, NULL none */
     int curve_count;
     Curve *curves; /* (curve_count + function_count): after the curves one of a single point for each function */
     int function_count;

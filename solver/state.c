@@ -30,6 +30,7 @@ static size_t lay_out(const Model *model, State *state)
     state->group_energy = take(base, &used, (size_t)model->group_count * sizeof *state->group_energy);
     state->cap_volume = take(base, &used, (size_t)model->airbag_count * sizeof *state->cap_volume);
     state->rigid = take(base, &used, (size_t)model->rigid_body_count * sizeof *state->rigid);
+    state->sensor = take(base, &used, (size_t)model->sensor_count * sizeof *state->sensor);
     return (used + 63) / 64 * 64;
 }
 
@@ -98,6 +99,16 @@ static int start_gas(const Model *model, State *state)
     return status;
 }
 
+/* The inflow of bags with a sensor waits for it. */
+static void start_sensors(const Model *model, State *state)
+{
+    for (int i = 0; i < model->sensor_count; i++) {
+        int body = model->sensors[i].rigid_body;
+        state->gas[model->sensor_airbag[i]].inflow_start = INFINITY;
+        if (body >= 0) memcpy(state->sensor[i].start, state->rigid[body].v, sizeof state->sensor[i].start);
+    }
+}
+
 static void start_energies(const Model *model, State *state)
 {
     Energies *e = state->energy;
@@ -124,6 +135,7 @@ int state_create(const Model *model, State *state)
         state_free(state);
         return -1;
     }
+    start_sensors(model, state);
     start_energies(model, state);
     return 0;
 }

@@ -49,6 +49,7 @@ typedef struct State {
     double *group_energy; /* energy stored in each group at the last cycle (group_count) */
     double *cap_volume;   /* under the caps of each bag at the last cycle (airbag_count) [L3] */
     RigidState *rigid;    /* (rigid_body_count), solver/rigid_body.h */
+    SensorState *sensor;  /* (sensor_count), airbag/sensor.h */
 } State;
 
 /* Bytes that a State of this model needs. */

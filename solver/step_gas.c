@@ -212,6 +212,7 @@ void step_gas(Workspace *w)
     w->plan.dt_before = clock->step;
     double rate = sum_chunks(w);
     if (advance_bags(w)) return;
+    if (m->sensor_count > 0) step_sensors(w);
     set_pressures(w);
     if (m->loads.class_count > 0) set_classes(w);
     w->plan.last = clock->time >= m->end_time || (m->end_cycle > 0 && clock->cycle >= m->end_cycle);

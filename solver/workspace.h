@@ -107,6 +107,7 @@ int step_functions_allocate(Workspace *w);                          /* -1 withou
 void step_functions_release(Workspace *w);
 int step_functions_evaluate(Workspace *w, int airbag); /* thread 0: values for this bag and cycle, then selected */
 void step_functions_select(Workspace *w, int airbag);  /* w->curves give this bag's values */
+void step_sensors(Workspace *w);                       /* thread 0: if the model has any */
 void step_fail(Workspace *w, const char *advice, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 #endif
