@@ -1,6 +1,7 @@
 /* *AIRBAG_SIMPLE_AIRBAG_MODEL and *AIRBAG_WANG_NEFSKE. */
 #include <string.h>
 
+#include "io/keyword_airbag_jet.h"
 #include "io/keyword_airbag_sensor.h"
 
 typedef struct BagIdCard {
@@ -51,7 +52,7 @@ static const FieldSpec wang5_fields[] = {
     CARD_REAL("PE", pe, USED, PRESSURE),       CARD_REAL("RO", ro, USED, DENSITY),
     CARD_REAL("GC", gc, USED, NONE),           CARD_INT("LCEFR", lcefr, USED, ID_FUNCTION),
     CARD_REAL("POVER", pover, USED, PRESSURE), CARD_REAL("PPOP", ppop, USED, PRESSURE),
-    CARD_REAL("OPT", opt, USED, NONE),         CARD_INT("KNKDN", knkdn, LISTED, ID_FUNCTION),
+    CARD_REAL("OPT", opt, USED, NONE),         CARD_INT("KNKDN", knkdn, USED, ID_FUNCTION),
 };
 static const FieldSpec wang6_fields[] = {
     CARD_REAL("IOC", ioc, REFUSED, NONE),      CARD_REAL("IOA", ioa, REFUSED, AREA),
@@ -73,7 +74,7 @@ static const FieldSpec wang7_fields[] = {
 };
 #undef AT
 
-enum { BAG_ID };
+enum { BAG_ID, WANG_JETTING, WANG_MULTIPLE_JETTING, WANG_CM };
 enum { BAG_ID_CARD, BAG_CORE_CARD, BAG_SENSOR_CARD, BAG_MODEL_CARD = BAG_SENSOR_CARD + AIRBAG_SENSOR_CARD_COUNT };
 enum { SIMPLE_CARD3 = BAG_MODEL_CARD, SIMPLE_CARD4A, SIMPLE_CARD4B };
 static const CardSpec simple_cards[] = {
@@ -84,7 +85,7 @@ static const CardSpec simple_cards[] = {
     {"card 4a", "if CV = 0", CARD_FIELDS(simple4a_fields)},
     {"card 4b", "if CV is not 0; may be left out", CARD_FIELDS(simple4b_fields)},
 };
-enum { WANG_CARD3 = BAG_MODEL_CARD, WANG_CARD4, WANG_CARD5, WANG_CARD6, WANG_CARD6_SPARE, WANG_CARD7 };
+enum { WANG_CARD3 = BAG_MODEL_CARD, WANG_CARD4, WANG_CARD5, WANG_CARD6, WANG_CARD6_SPARE, WANG_CARD7, WANG_JET_CARD };
 static const CardSpec wang_cards[] = {
     {"ID card", "with ID", CARD_FIELDS(id_fields)},
     {"card 1", "", CARD_FIELDS(core_fields)},
@@ -95,6 +96,7 @@ static const CardSpec wang_cards[] = {
     {"card 6", "if LCMT = 0", CARD_FIELDS(wang6_fields)},
     {"card 6", "if LCMT is not 0; to be left blank", CARD_FIELDS(wang6_spare_fields)},
     {"card 7", "if CV = 0", CARD_FIELDS(wang7_fields)},
+    AIRBAG_JET_CARDS,
 };
 
 /* ID card, card 1 and the sensor's cards. */
@@ -186,10 +188,17 @@ static void read_wang_nefske(KeywordRead *read)
     if (keyword_card(read, WANG_CARD4, &bag, true, &bag.card4)) return;
     if (keyword_card(read, WANG_CARD5, &bag, true, &bag.card5)) return;
     const int card6 = bag.lcmt == 0 ? WANG_CARD6 : WANG_CARD6_SPARE;
-    const bool needed = bag.lcmt == 0 || bag.cv == 0.0; /* as the last card it may be left out when it says nothing */
+    const bool jet = keyword_option(read, WANG_JETTING) || keyword_option(read, WANG_MULTIPLE_JETTING);
+    const bool needed =
+        bag.lcmt == 0 || bag.cv == 0.0 || jet; /* as the last card it may be left out when it says nothing */
     if ((needed || card_left(read->cards)) && keyword_card(read, card6, &bag, true, &bag.card6)) return;
     bag.card7 = bag.card6;
     if (bag.cv == 0.0 && keyword_card(read, WANG_CARD7, &bag, true, &bag.card7)) return;
+    if (airbag_read_jet(read, WANG_JET_CARD, keyword_option(read, WANG_JETTING),
+                        keyword_option(read, WANG_MULTIPLE_JETTING), keyword_option(read, WANG_CM), &bag))
+        return;
+    if (bag.knkdn != 0 && !bag.jet.given)
+        keyword_note(read, bag.card5, "KNKDN = %d is read but not used: it applies to jetting only", bag.knkdn);
     keyword_finish(read);
     if (refuse_features(read, &bag)) return;
     bag.a23 = keyword_scale(read, bag.a23, SCALE_AREA);
@@ -208,7 +217,7 @@ static const KeywordSpec specs[] = {
      .remark = "SIDTYP 0: SID is a segment set, else a part set. MU < 0 and AREA < 0 name curves over the absolute "
                "pressure. RBID < 0 is the built-in sensor, RBID > 0 the user's (--sensor-library); both shift LCID."},
     {.name = "*AIRBAG_WANG_NEFSKE",
-     .options = {"ID"},
+     .options = {"ID", "JETTING", "MULTIPLE_JETTING", "CM"},
      .cards = wang_cards,
      .card_count = sizeof wang_cards / sizeof *wang_cards,
      .read = read_wang_nefske,
@@ -218,7 +227,9 @@ static const KeywordSpec specs[] = {
          "switches CP23 and AP23 off; leakage through the fabric itself (FLC, FAC) is refused where it is not "
          "zero. HCONV < 0 names a curve over time. RBID < 0 is the built-in sensor, RBID > 0 the user's "
          "(--sensor-library); both shift LCMT, LCT and LCDT. "
-         "The options POP, JETTING, MULTIPLE_JETTING and CM are refused."},
+         "LCJRV is over the angle in degrees, CA and BETA "
+         "below 0 name curves over time; NODE1 and NODE2 place the jet in place of the coordinates. The option POP is "
+         "refused."},
 };
 
 const KeywordFamily keyword_family_airbag = {"Airbags", specs, (int)(sizeof specs / sizeof *specs)};

@@ -141,7 +141,7 @@ static int run_stages(Builder *b)
     if (build_movement(b)) status = -1;
     if (status) return -1;
     if (build_pressure_sets(b)) return -1;
-    if (build_renumber(b) || build_groups(b)) return -1;
+    if (build_renumber(b) || build_groups(b) || build_jets(b)) return -1;
     set_origin(b);
     b->model->caps_push_rim = b->options->caps_push_rim;
     if (take_motion(b)) return -1;

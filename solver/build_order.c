@@ -74,9 +74,10 @@ static int level_order(const Builder *b, const Adjacency *a, int32_t *position)
 enum { CLASS_FREE, CLASS_SPECIAL, CLASS_FIXED };
 
 /* Class of each node: special where the lean loop does not do, fixed where nothing moves. */
-static void classify_nodes(const Builder *b, const Adjacency *a, unsigned char *class)
+static void classify_nodes(Builder *b, const Adjacency *a, unsigned char *class)
 {
     motion_mark_special(&b->motion, class);
+    mark_jet_nodes(b, class);
     for (int i = 0; b->options->caps_push_rim && i < b->model->airbag_count; i++)
         for (int k = 0; k < b->closures[i].cap_count; k++)
             for (int c = 0; c < b->closures[i].caps[k].count; c++)

@@ -64,10 +64,12 @@ void renumber_functions(Builder *builder, const int32_t *new_index); /* by build
 int build_surfaces(Builder *builder);                                /* airbags' surfaces: orientation and caps */
 int build_pressure_sets(Builder *builder); /* and segment loads -> pressure sets; after build_motion */
 int build_airbags(Builder *builder);       /* gas models; after build_surfaces */
-int build_sensors(Builder *builder);       /* after the motion is taken over */
-int build_output(Builder *builder);        /* termination, step control, output plan */
-int build_mass_scaling(Builder *builder);  /* DT2MS */
-int build_renumber(Builder *builder);      /* node and element order for locality */
-int build_groups(Builder *builder);        /* blocks, kernel constants, corner lists */
+int build_jets(Builder *builder);          /* after build_groups */
+void mark_jet_nodes(Builder *builder, unsigned char *special); /* by build_renumber: NREACT */
+int build_sensors(Builder *builder);                           /* after the motion is taken over */
+int build_output(Builder *builder);                            /* termination, step control, output plan */
+int build_mass_scaling(Builder *builder);                      /* DT2MS */
+int build_renumber(Builder *builder);                          /* node and element order for locality */
+int build_groups(Builder *builder);                            /* blocks, kernel constants, corner lists */
 
 #endif

@@ -314,6 +314,17 @@ typedef struct SensorCards {
     double c[BILLOW_SENSOR_CONSTANTS];
 } SensorCards;
 
+/* Cards 9 to 11 of *AIRBAG_WANG_NEFSKE_JETTING and the like. */
+typedef struct JetCards {
+    bool given, multiple, cm;
+    double focus[3], head[3], second[3];
+    double ca, beta; /* ca: CA or LCJRV */
+    int psid;
+    double angle;
+    int node[3], nreact;
+    Source card9, card10, card11;
+} JetCards;
+
 /* *AIRBAG_<model>(_ID): cards as in the manual; the Source of every card so that messages name the right line. */
 typedef struct AirbagDefinition {
     AirbagModel model;
@@ -335,6 +346,7 @@ typedef struct AirbagDefinition {
     double ioc, ioa, ivol, iro, it; /* WANG_NEFSKE 6 */
     int lcbf;
     SensorCards sensor;
+    JetCards jet;
     Source source, card1, card3, card4, card5, card6, card7;
 } AirbagDefinition;
 

@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #include "airbag/gas.h"
+#include "airbag/jet.h"
 #include "airbag/sensor.h"
 #include "airbag/surface.h"
 #include "elements/law.h"
@@ -146,6 +147,8 @@ typedef struct Model {
     Sensor *sensors;      /* airbag/sensor.h (sensor_count) */
     int *sensor_airbag;   /* index of the airbag that each starts (sensor_count) */
     void *sensor_library; /* handle of dlopen, NULL none */
+    int jet_count, jet_facet_count;
+    Jet *jets; /* airbag/jet.h (jet_count); their facets: jet_facet_count */
     int curve_count;
     Curve *curves; /* (curve_count + function_count): after the curves one of a single point for each function */
     int function_count;

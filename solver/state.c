@@ -31,6 +31,8 @@ static size_t lay_out(const Model *model, State *state)
     state->cap_volume = take(base, &used, (size_t)model->airbag_count * sizeof *state->cap_volume);
     state->rigid = take(base, &used, (size_t)model->rigid_body_count * sizeof *state->rigid);
     state->sensor = take(base, &used, (size_t)model->sensor_count * sizeof *state->sensor);
+    state->jet = take(base, &used, (size_t)model->jet_count * sizeof *state->jet);
+    state->jet_shape = take(base, &used, (size_t)model->jet_facet_count * sizeof *state->jet_shape);
     return (used + 63) / 64 * 64;
 }
 

@@ -50,6 +50,8 @@ typedef struct State {
     double *cap_volume;   /* under the caps of each bag at the last cycle (airbag_count) [L3] */
     RigidState *rigid;    /* (rigid_body_count), solver/rigid_body.h */
     SensorState *sensor;  /* (sensor_count), airbag/sensor.h */
+    JetState *jet;        /* (jet_count), airbag/jet.h */
+    double *jet_shape;    /* (jet_facet_count): > 0 the jet's pressure is strength times it, -1 hidden from the jet */
 } State;
 
 /* Bytes that a State of this model needs. */

@@ -102,7 +102,7 @@ static int allocate(Workspace *w)
                       w->newton};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
-    return step_functions_allocate(w);
+    return step_functions_allocate(w) || step_jets_allocate(w) ? -1 : 0;
 }
 
 static void release(Workspace *w)
@@ -115,6 +115,7 @@ static void release(Workspace *w)
                       w->newton};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
     step_functions_release(w);
+    step_jets_release(w);
 }
 
 static void prepare(Workspace *w)
@@ -167,6 +168,7 @@ static void loop(void *context, int thread, Team *team)
         team_barrier(team);
         if (w->failure->failed) break;
         times->waiting += lap(&since);
+        if (w->jets) step_jets_push(w, thread, team);
         if (w->plan.implicit_gas) {
             step_gas_pass(w, thread, threads);
             team_barrier(team);
@@ -178,6 +180,7 @@ static void loop(void *context, int thread, Team *team)
         step_nodes(w, thread, threads);
         times->nodes += lap(&since);
         team_barrier(team);
+        if (w->jets) step_jets_count(w, thread, team);
         times->waiting += lap(&since);
         if (!w->plan.emit) continue;
         if (thread == 0) step_emit(w);

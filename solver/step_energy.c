@@ -20,6 +20,10 @@ static NodeSums sum_nodes(const Workspace *w)
         t.support_after += s->support_after;
         t.compliance += s->compliance;
     }
+    for (int c = 0; c < w->jet_chunk_count; c++) {
+        t.bag_before += w->jet_sums[c].before;
+        t.bag_after += w->jet_sums[c].after;
+    }
     return t;
 }
 

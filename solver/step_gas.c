@@ -220,5 +220,6 @@ void step_gas(Workspace *w)
     w->plan.dt_mean = 0.5 * (w->plan.dt_before + w->plan.dt_next);
     w->plan.emit = w->hooks->due(w->hooks->user, m, w->state, w->plan.last) || w->plan.last;
     w->closed = w->plan.emit;
+    if (w->jets) step_jets_prepare(w);
     if (!w->plan.emit) step_tick(w);
 }

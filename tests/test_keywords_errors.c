@@ -100,8 +100,8 @@ static void test_unknown_keywords(void **state)
     assert_one_error("*PART_INERTIA\nx\n         1\n", 1, "*PART_INERTIA", "the option INERTIA of *PART is not read");
     assert_one_error("*ELEMENT_SHELL_OFFSET\n       5       1       1       2       3       4\n", 1,
                      "*ELEMENT_SHELL_OFFSET", "the option OFFSET of *ELEMENT_SHELL is not read");
-    assert_one_error("*AIRBAG_WANG_NEFSKE_JETTING_ID\n         1\n", 1, "*AIRBAG_WANG_NEFSKE_JETTING_ID",
-                     "the option JETTING_ID of *AIRBAG_WANG_NEFSKE is not read");
+    assert_one_error("*AIRBAG_WANG_NEFSKE_POP_ID\n         1\n", 1, "*AIRBAG_WANG_NEFSKE_POP_ID",
+                     "the option POP_ID of *AIRBAG_WANG_NEFSKE is not read");
     assert_one_error("*AIRBAG_HYBRID\n         1\n", 1, "*AIRBAG_HYBRID", "is not read by billow");
 }
 
