@@ -10,7 +10,7 @@
 
 static const double PI = 3.14159265358979323846;
 static const double DEGREES = 57.295779513082321;
-static const double WEAK = 7.0; /* exponent 2 (r/(alpha z))^2 beyond which nothing is left: e^-14 of the peak */
+static const double WEAK = 5.0; /* (r/(alpha z))^2 beyond which nothing is left: e^-10 of the peak, 5e-5 of the force */
 
 static double value_or_curve(double constant, int curve, const Curve *curves, double time)
 {

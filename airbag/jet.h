@@ -9,13 +9,11 @@
 
 /* One facet of the bag's surface. */
 typedef struct JetFacet {
-    struct {
-        int32_t force, share; /* offsets in the corner buffer: stress force, share of the area vector */
-    } corner[4];
-    int corner_count;
-    int outward; /* +1: the normal by the order of the nodes points out of the bag */
-    int push;    /* +1: the share of the area vector points out of the bag */
-    bool target; /* in PSID, or PSID = 0: takes the jet's pressure */
+    int32_t record;      /* offset of its record in the corner buffer (elements/kernels.h) */
+    int8_t corner_count; /* 3 or 4 */
+    int8_t outward;      /* +1: the normal by the order of the nodes points out of the bag */
+    int8_t push;         /* +1: the share of the area vector points out of the bag */
+    bool target;         /* in PSID, or PSID = 0: takes the jet's pressure */
 } JetFacet;
 
 /* Immutable. Curve members are indices, -1 none; their time counts from the start of the inflow. */

@@ -4,6 +4,7 @@
 
 #include "elements/kernels.h"
 #include "solver/builder.h"
+#include "solver/elementary.h"
 #include "solver/memory.h"
 #include "solver/vector3.h"
 
@@ -113,15 +114,12 @@ static void fill_facet(Jet *jet, const ShellRecord *record, int sign, size_t rec
     JetFacet *facet = &jet->facet[jet->facet_count];
     int32_t *node = jet->node + 4 * (size_t)jet->facet_count++;
     bool triangle = record->corner_count == 3;
-    facet->corner_count = record->corner_count;
-    facet->outward = sign;
-    facet->push = sign * record->orientation;
+    facet->record = (int32_t)record_place;
+    facet->corner_count = (int8_t)record->corner_count;
+    facet->outward = (int8_t)sign;
+    facet->push = (int8_t)(sign * record->orientation);
     facet->target = target;
-    for (int c = 0; c < 4; c++) {
-        node[c] = record->node[triangle && c == 3 ? 2 : c];
-        facet->corner[c].force = (int32_t)record_place + 3 * (c < record->corner_count ? c : 0);
-        facet->corner[c].share = (int32_t)record_place + (triangle ? 9 : 12 + 3 * c);
-    }
+    for (int c = 0; c < 4; c++) node[c] = record->node[triangle && c == 3 ? 2 : c];
 }
 
 static int list_facets(Builder *b, const AirbagDefinition *bag, Jet *jet)
@@ -153,6 +151,40 @@ static int list_facets(Builder *b, const AirbagDefinition *bag, Jet *jet)
     return status;
 }
 
+/* Solid angle of the triangle a b c seen from o (van Oosterom and Strackee 1983). */
+static double solid_angle(const double o[3], const double *a, const double *b, const double *c)
+{
+    double u[3], v[3], w[3], n[3];
+    vector3_subtract(a, o, u);
+    vector3_subtract(b, o, v);
+    vector3_subtract(c, o, w);
+    vector3_cross(v, w, n);
+    double p = vector3_norm(u), q = vector3_norm(v), r = vector3_norm(w);
+    double below = p * q * r + vector3_dot(u, v) * r + vector3_dot(v, w) * p + vector3_dot(w, u) * q;
+    return 2.0 * elementary_atan2(vector3_dot(u, n), below);
+}
+
+/* From outside the bag no inner face can be seen: warned of unless the bag is flat at the start. */
+static void check_focus(Builder *b, const AirbagDefinition *bag, const Jet *jet)
+{
+    const SurfaceClosure *closure = &b->closures[jet->airbag];
+    if (!(closure->volume > BILLOW_GAS_FLAT * closure->area * sqrt(closure->area))) return;
+    double sum = 0.0;
+    for (int f = 0; f < jet->facet_count; f++) {
+        const double *x[4];
+        for (int c = 0; c < 4; c++) x[c] = b->model->initial + 3 * (size_t)jet->node[4 * (size_t)f + (size_t)c];
+        double angle = solid_angle(jet->focus, x[0], x[1], x[2]);
+        if (jet->facet[f].corner_count == 4) angle += solid_angle(jet->focus, x[0], x[2], x[3]);
+        sum += jet->facet[f].outward * angle;
+    }
+    if (sum > 6.283185307179586) return; /* half of the full angle: holes let some of it out */
+    diagnostics_add(
+        b->diagnostics, SEVERITY_WARNING, bag->jet.card9, "*AIRBAG",
+        "the jet's focal point (%.6g, %.6g, %.6g) lies outside the bag: it sees no inner face, so that the jet "
+        "has no effect",
+        jet->focus[0], jet->focus[1], jet->focus[2]);
+}
+
 static int build_jet(Builder *b, int number, Jet *jet)
 {
     const AirbagDefinition *bag = &b->definitions->airbags.items[number];
@@ -172,6 +204,7 @@ static int build_jet(Builder *b, int number, Jet *jet)
         diagnostics_add(b->diagnostics, SEVERITY_WARNING, cards->card11, "*AIRBAG",
                         "NREACT = %d has no mass: nothing feels the jet's reaction", cards->nreact);
     if (list_facets(b, bag, jet)) status = -1;
+    if (!status) check_focus(b, bag, jet);
     return status;
 }
 

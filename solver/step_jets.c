@@ -11,7 +11,7 @@ enum {
     FACET_CHUNK = 256,  /* facets in one fixed partial sum */
     LONGEST_VIEW = 100, /* steps after which the line of sight is looked at again in any case */
 };
-static const double VIEW_MOTION = 0.5;  /* or when a node may have moved by this share of a facet's size */
+static const double VIEW_MOTION = 1.0;  /* or when a node may have moved by this many sizes of a facet */
 static const double VIEW_MARGIN = 0.01; /* layers nearer than this share of a facet's size do not hide each other */
 
 static int chunk_count(const Jet *jet)
@@ -111,20 +111,33 @@ static double extra_pressure(const JetWork *work, double shape, double bag)
     return shape >= 0.0 ? work->frame.strength * shape : (work->frame.knock - 1.0) * bag;
 }
 
-/* (J12): forces p A_i onto the corners, their sum and their power on the velocities before. */
-static void push_facet(Workspace *w, const JetFacet *facet, const int32_t *node, double pressure, bool is_jet,
-                       JetSums *sums)
+/* Power of unit pressure on the facet: sum of A_i . v_i. */
+static inline double facet_power(const JetFacet *facet, const double *record, const int32_t *node, const double *v)
 {
-    for (int c = 0; c < facet->corner_count; c++) {
-        double *force = w->corner + facet->corner[c].force;
-        const double *share = w->corner + facet->corner[c].share, *v = w->state->v + 3 * (ptrdiff_t)node[c];
-        for (int k = 0; k < 3; k++) {
-            double f = facet->push * pressure * share[k];
-            force[k] += f;
-            sums->before += f * v[k];
-            if (is_jet) sums->force[k] += f;
-        }
+    const double *a = v + 3 * (ptrdiff_t)node[0], *b = v + 3 * (ptrdiff_t)node[1], *c = v + 3 * (ptrdiff_t)node[2],
+                 *d = v + 3 * (ptrdiff_t)node[3];
+    double power = 0.0;
+    if (facet->corner_count == 3) {
+        const double *share = record + 9;
+        for (int k = 0; k < 3; k++) power += share[k] * (a[k] + b[k] + c[k]);
+        return power;
     }
+    const double *share = record + 12;
+    for (int k = 0; k < 3; k++)
+        power += share[k] * a[k] + share[3 + k] * b[k] + share[6 + k] * c[k] + share[9 + k] * d[k];
+    return power;
+}
+
+/* (J12): forces p A_i onto the corners; returns their sum in force if it is asked for. */
+static inline void push_facet(const JetFacet *facet, double *record, double pressure, double *force)
+{
+    int corners = facet->corner_count, shares = 3 * corners;
+    for (int c = 0; c < corners; c++)
+        for (int k = 0; k < 3; k++) {
+            double f = pressure * record[shares + (corners == 3 ? k : 3 * c + k)];
+            record[3 * c + k] += f;
+            if (force) force[k] += f;
+        }
 }
 
 static void push_chunk(Workspace *w, int number, int chunk)
@@ -140,8 +153,10 @@ static void push_chunk(Workspace *w, int number, int chunk)
     for (int f = first; f < end; f++) {
         if (work->view) shape[f] = view_facet(w, jet, work, f);
         if (shape[f] == 0.0) continue;
-        push_facet(w, &jet->facet[f], jet->node + 4 * (ptrdiff_t)f, extra_pressure(work, shape[f], bag), shape[f] > 0.0,
-                   sums);
+        const JetFacet *facet = &jet->facet[f];
+        double pressure = facet->push * extra_pressure(work, shape[f], bag), *record = w->corner + facet->record;
+        push_facet(facet, record, pressure, shape[f] > 0.0 ? sums->force : NULL);
+        sums->before += pressure * facet_power(facet, record, jet->node + 4 * (ptrdiff_t)f, w->state->v);
     }
 }
 
@@ -177,12 +192,8 @@ static void count_chunk(Workspace *w, int number, int chunk)
     for (int f = first; f < end; f++) {
         if (shape[f] == 0.0) continue;
         const JetFacet *facet = &jet->facet[f];
-        double pressure = facet->push * extra_pressure(work, shape[f], bag);
-        for (int c = 0; c < facet->corner_count; c++) {
-            const double *share = w->corner + facet->corner[c].share,
-                         *v = w->state->v + 3 * (ptrdiff_t)jet->node[4 * (ptrdiff_t)f + c];
-            sum += pressure * (share[0] * v[0] + share[1] * v[1] + share[2] * v[2]);
-        }
+        sum += facet->push * extra_pressure(work, shape[f], bag) *
+               facet_power(facet, w->corner + facet->record, jet->node + 4 * (ptrdiff_t)f, w->state->v);
     }
     w->jet_sums[work->first_chunk + chunk].after = sum;
 }

@@ -65,7 +65,7 @@ static void constant_momentum(void **state)
     for (int i = 0; i < 4; i++)
         verify_close("B15 share", force_inside(&jet, &frame, 0.3, share[i][0]) / 539.320861, share[i][1], 2e-6);
     for (double z = 0.1; z < 1; z += 0.2)
-        verify_close("force at any distance [N]", force_inside(&jet, &frame, z, z), 539.320861, 2e-6);
+        verify_close("force at any distance [N]", force_inside(&jet, &frame, z, z), 539.320861 * (1 - exp(-10)), 2e-6);
     assert_true(pressure_at(&jet, NULL, &frame, 0, 0, -0.3) == 0); /* nothing behind */
 }
 
@@ -82,9 +82,9 @@ static void constant_mass(void **state)
         double r = 0.5 * (i + 0.5) / rings;
         flow += 1.2 * sqrt(pressure_at(&jet, NULL, &frame, r, 0, z) / 1.2) * 2 * PI * r * 0.5 / rings;
     }
-    verify_close("mass flow [kg/s]", flow, 0.7, 2e-3); /* the rim beyond e^-7 is left out */
+    verify_close("mass flow [kg/s]", flow, 0.7 * (1 - exp(-5)), 1e-4); /* the rim beyond e^-5 is left out */
     double width = 0.2 * z;
-    verify_close("force [N]", force_inside(&jet, &frame, z, 1), 0.7 * 0.7 / (2 * 1.2 * PI * width * width), 1e-5);
+    verify_close("force [N]", force_inside(&jet, &frame, z, 1), 0.7 * 0.7 / (2 * 1.2 * PI * width * width), 1e-4);
 }
 
 /* Between the foci the jet is a slot: for any distance the momentum is the flow's. */
@@ -106,7 +106,7 @@ static void wedge(void **state)
                 flow += 1.2 * sqrt(p / 1.2) * step * step;
             }
         if (cm) verify_close("force of the wedge [N]", force, 539.320861, 1e-4);
-        if (!cm) verify_close("flow of the wedge [kg/s]", flow, 1, 3e-3);
+        if (!cm) verify_close("flow of the wedge [kg/s]", flow, 1, 1e-2);
         double origin[3];
         jet_shape(&jet, NULL, &frame, (double[]){0.1, 0.05, 0.3}, 0, origin);
         verify_near("the nearest point of the focal line", origin[0], 0.1, 1e-15);
