@@ -137,7 +137,8 @@ ALWAYS_INLINE void integrate_pack(int terms, const CyclePlan *plan, const NodeCh
     Pack bag = of->bag[third], load = of->load[third], f = loose_load(chunk->force + j) + (bag + load) * s;
     Pack mass = of->mass[third];
     if (terms & BODY_TERMS) {
-        /* damping at the mean velocity: v+ (1 + D dt/2) = v- (1 - D dt/2) + D dt v_ref + a dt (eq. T4), stable for any D */
+        /* damping at the mean velocity: v+ (1 + D dt/2) = v- (1 - D dt/2) + D dt v_ref + a dt (eq. T4), stable for any
+         * D */
         Pack gravity = loose_load(chunk->gravity + j), damping = loose_load(chunk->damping + j),
              reference = loose_load(chunk->reference + j), stagnation = of->stagnation[third];
         f += stagnation * s;

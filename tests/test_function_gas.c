@@ -107,6 +107,29 @@ static void functions_see_the_walls(void **state)
     verify_free(&run);
 }
 
+/* Only the State goes on: a function of the gas, the step and the cycle is not remembered anywhere else. */
+static void same_bits_after_a_restart(void **state)
+{
+    (void)state;
+    uint64_t hash[2];
+    for (int restart = 0; restart < 2; restart++) {
+        Scene scene = {0};
+        write_box(&scene, "0.6,0,0,7,0,8,1.E-4,0",
+                  "*DEFINE_FUNCTION\n         7\nf(p,v,t)=2.5E-8*(p-1.E5)*exp(-t)\n"
+                  "*DEFINE_CURVE_FUNCTION\n         8\n0.1+TIMESTEP+sin(NCYCLE)**2\n");
+        VerifyRun run;
+        const VerifyOptions options = {.stop = restart ? 20 : 41};
+        assert_int_equal(verify_build(&run, scene.deck.text, scene.deck.length, &options), 0);
+        assert_int_equal(verify_loop(&run), 0);
+        run.options.stop = 41;
+        if (restart) assert_int_equal(verify_loop(&run), 0);
+        hash[restart] = state_hash(&run.state);
+        verify_free(&run);
+        scene_free(&scene);
+    }
+    assert_true(hash[0] == hash[1]);
+}
+
 static void assert_refused(const char *card4, const char *definitions, const char *text)
 {
     Scene scene = {0};
@@ -158,6 +181,7 @@ int main(void)
         cmocka_unit_test(functions_see_the_walls),
         cmocka_unit_test(misuse_is_refused),
         cmocka_unit_test(bad_values_stop_the_run),
+        cmocka_unit_test(same_bits_after_a_restart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
