@@ -42,6 +42,7 @@ typedef struct Jet {
 /* Plain data in the State buffer. */
 typedef struct JetState {
     double next_view; /* time at which the line of sight is looked at again */
+    int64_t looks;    /* how often it was */
     double force[3];  /* sum of the jet's forces on the surface */
 } JetState;
 

@@ -79,29 +79,50 @@ static int longest_axis(const RayTree *tree, int first, int end)
 static void build_range(RayTree *tree, int first, int end)
 {
     RayBox *box = &tree->box[tree->box_count++];
-    *box = (RayBox){.first = first, .count = end - first};
+    *box = (RayBox){.facets = 8 * first + (end - first)};
     if (end - first > LEAF_FACETS) {
         int middle = first + (end - first) / 2;
         select_median(tree, longest_axis(tree, first, end), first, end, middle);
-        box->count = 0;
+        box->facets = 0;
         build_range(tree, first, middle);
         build_range(tree, middle, end);
     }
     box->next = tree->box_count;
 }
 
-static void grow(RayBox *box, const double x[3])
+static int first_facet(const RayBox *box)
 {
-    for (int k = 0; k < 3; k++) {
-        box->low[k] = x[k] < box->low[k] ? x[k] : box->low[k];
-        box->high[k] = x[k] > box->high[k] ? x[k] : box->high[k];
-    }
+    return box->facets / 8;
+}
+
+static int end_facet(const RayBox *box)
+{
+    return box->facets / 8 + box->facets % 8;
 }
 
 static double surface_of(const RayBox *box)
 {
-    double a = box->high[0] - box->low[0], b = box->high[1] - box->low[1], c = box->high[2] - box->low[2];
+    double a = (double)box->high[0] - (double)box->low[0], b = (double)box->high[1] - (double)box->low[1],
+           c = (double)box->high[2] - (double)box->low[2];
     return a * b + b * c + c * a;
+}
+
+/* The box of a leaf; a float's rounding error is below 6e-8 of the value. */
+static void fit_leaf(RayTree *tree, RayBox *box, const double *x)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int f = first_facet(box); f < end_facet(box); f++)
+        for (int c = 0; c < 4; c++) {
+            const double *p = x + 3 * (ptrdiff_t)tree->node[4 * (ptrdiff_t)tree->order[f] + c];
+            for (int k = 0; k < 3; k++) {
+                low[k] = p[k] < low[k] ? p[k] : low[k];
+                high[k] = p[k] > high[k] ? p[k] : high[k];
+            }
+        }
+    for (int k = 0; k < 3; k++) {
+        box->low[k] = (float)(low[k] - 2e-7 * fabs(low[k]));
+        box->high[k] = (float)(high[k] + 2e-7 * fabs(high[k]));
+    }
 }
 
 /* Boxes from the last to the first, children before parents; returns their surface over the root's. */
@@ -110,17 +131,13 @@ static double fit(RayTree *tree, const double *x)
     double sum = 0.0;
     for (int i = tree->box_count - 1; i >= 0; i--) {
         RayBox *box = &tree->box[i];
-        for (int k = 0; k < 3; k++) {
-            box->low[k] = INFINITY;
-            box->high[k] = -INFINITY;
-        }
-        for (int f = box->first; f < box->first + box->count; f++)
-            for (int c = 0; c < 4; c++) grow(box, x + 3 * (ptrdiff_t)tree->node[4 * (ptrdiff_t)tree->order[f] + c]);
-        if (box->count == 0) {
-            const RayBox *child[2] = {box + 1, &tree->box[box[1].next]};
-            for (int j = 0; j < 2; j++) {
-                grow(box, child[j]->low);
-                grow(box, child[j]->high);
+        if (box->facets != 0) {
+            fit_leaf(tree, box, x);
+        } else {
+            const RayBox *a = box + 1, *b = &tree->box[a->next];
+            for (int k = 0; k < 3; k++) {
+                box->low[k] = a->low[k] < b->low[k] ? a->low[k] : b->low[k];
+                box->high[k] = a->high[k] > b->high[k] ? a->high[k] : b->high[k];
             }
         }
         sum += surface_of(box);
@@ -159,8 +176,8 @@ static bool hits_box(const Ray *ray, const RayBox *box)
 {
     double enter = 0.0, leave = ray->limit;
     for (int k = 0; k < 3; k++) {
-        double a = (box->low[k] - ray->origin[k]) * ray->inverse[k];
-        double b = (box->high[k] - ray->origin[k]) * ray->inverse[k];
+        double a = ((double)box->low[k] - ray->origin[k]) * ray->inverse[k];
+        double b = ((double)box->high[k] - ray->origin[k]) * ray->inverse[k];
         double near = a < b ? a : b, far = a < b ? b : a;
         /* a ray within a face's plane has 0 times infinity: not a number leaves the bounds as they are */
         enter = near > enter ? near : enter;
@@ -215,7 +232,7 @@ bool ray_tree_blocked(const RayTree *tree, const double *x, const double a[3], c
             i = box->next;
             continue;
         }
-        for (int f = box->first; f < box->first + box->count; f++)
+        for (int f = first_facet(box); f < end_facet(box); f++)
             if (tree->order[f] != skip && hits_facet(tree, x, &ray, tree->order[f])) return true;
         i++;
     }

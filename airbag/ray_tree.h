@@ -8,9 +8,9 @@
 
 /* Boxes in depth-first order: the first child of box i is i + 1, the second starts where the first's next points. */
 typedef struct RayBox {
-    double low[3], high[3];
-    int32_t next;         /* box to go on with when this one is missed */
-    int32_t first, count; /* leaf: facets order[first ..]; count 0: inner box */
+    float low[3], high[3]; /* rounded outwards: half a cache line a box */
+    int32_t next;          /* box to go on with when this one is missed */
+    int32_t facets;        /* leaf: its facets are order[facets / 8 ..], facets % 8 of them; inner box: 0 */
 } RayBox;
 
 typedef struct RayTree {

@@ -51,7 +51,8 @@ typedef struct State {
     RigidState *rigid;    /* (rigid_body_count), solver/rigid_body.h */
     SensorState *sensor;  /* (sensor_count), airbag/sensor.h */
     JetState *jet;        /* (jet_count), airbag/jet.h */
-    double *jet_shape;    /* (jet_facet_count): > 0 the jet's pressure is strength times it, -1 hidden from the jet */
+    double
+        *jet_shape; /* (jet_facet_count): > 0 the jet's pressure is strength times it, 0 out of its reach, -1 hidden */
 } State;
 
 /* Bytes that a State of this model needs. */

@@ -69,6 +69,7 @@ void step_jets_prepare(Workspace *w)
         if (!work->view) continue;
         ray_tree_refit(&work->tree, w->state->x);
         w->state->jet[i].next_view = next_view(w, jet);
+        w->state->jet[i].looks++;
     }
 }
 
@@ -89,8 +90,9 @@ static void facet_geometry(const Jet *jet, int f, const double *x, double middle
     }
 }
 
-/* (J10): shape where the jet sees the facet's inner side; hidden facets get -1, or 0 where that makes no difference. */
-static double view_facet(const Workspace *w, const Jet *jet, const JetWork *work, int f)
+/* (J10): shape where the jet sees the facet's inner side, -1 where it does not, 0 out of its reach. A ray is cast at
+ * every second look, and where the facet comes into the jet. */
+static double view_facet(const Workspace *w, const Jet *jet, const JetWork *work, int f, double before)
 {
     double middle[3], outward[3], origin[3], sight[3];
     facet_geometry(jet, f, w->state->x, middle, outward);
@@ -99,10 +101,9 @@ static double view_facet(const Workspace *w, const Jet *jet, const JetWork *work
     if (!jet->facet[f].target) shape = 0.0;
     if (!(shape > 0.0) && jet->knock_curve < 0) return 0.0;
     vector3_subtract(middle, origin, sight);
-    bool hidden = !(vector3_dot(sight, outward) > 0.0) ||
-                  ray_tree_blocked(&work->tree, w->state->x, origin, middle, f, VIEW_MARGIN * sqrt(area));
-    if (!hidden) return shape;
-    return jet->knock_curve < 0 ? 0.0 : -1.0;
+    if (!(vector3_dot(sight, outward) > 0.0)) return -1.0;
+    if (before != 0.0 && (f + w->state->jet[work - w->jets].looks) % 2 != 0) return before < 0.0 ? -1.0 : shape;
+    return ray_tree_blocked(&work->tree, w->state->x, origin, middle, f, VIEW_MARGIN * sqrt(area)) ? -1.0 : shape;
 }
 
 /* Pressure beyond the bag's own on a facet. */
@@ -151,8 +152,8 @@ static void push_chunk(Workspace *w, int number, int chunk)
     if (!work->frame.active) return;
     if (end > jet->facet_count) end = jet->facet_count;
     for (int f = first; f < end; f++) {
-        if (work->view) shape[f] = view_facet(w, jet, work, f);
-        if (shape[f] == 0.0) continue;
+        if (work->view) shape[f] = view_facet(w, jet, work, f, shape[f]);
+        if (shape[f] == 0.0 || (shape[f] < 0.0 && jet->knock_curve < 0)) continue;
         const JetFacet *facet = &jet->facet[f];
         double pressure = facet->push * extra_pressure(work, shape[f], bag), *record = w->corner + facet->record;
         push_facet(facet, record, pressure, shape[f] > 0.0 ? sums->force : NULL);
@@ -190,7 +191,7 @@ static void count_chunk(Workspace *w, int number, int chunk)
     if (!work->frame.active) return;
     if (end > jet->facet_count) end = jet->facet_count;
     for (int f = first; f < end; f++) {
-        if (shape[f] == 0.0) continue;
+        if (shape[f] == 0.0 || (shape[f] < 0.0 && jet->knock_curve < 0)) continue;
         const JetFacet *facet = &jet->facet[f];
         sum += facet->push * extra_pressure(work, shape[f], bag) *
                facet_power(facet, w->corner + facet->record, jet->node + 4 * (ptrdiff_t)f, w->state->v);
