@@ -177,7 +177,8 @@ typedef struct GasState {
     double open_time;                       /* at which the exits open; 1e300: nothing has tripped them yet */
     double pop_time;                        /* cumulated beyond the acceleration that opens the exits */
     double fluid_level, fluid_volume;       /* GAS_FLUID_AND_GAS: coordinate on its axis [L]; times VSCA [L3] */
-    double carry[8];                        /* rounding errors of the ledger's sums (gas_ledger.h) */
+    double inflow_start; /* time that the inflow's curves count from: 0, or when the sensor fires; before, infinity */
+    double carry[8];     /* rounding errors of the ledger's sums (gas_ledger.h) */
 } GasState;
 
 /* The keyword without *AIRBAG_. */

@@ -178,7 +178,8 @@ void gas_exchange(const GasModel *gas, GasLaw *law, const Curve *curves, double 
     gas_lose_heat(gas, law, curves, time, time + 0.5 * span, area, state);
     update_state_of_gas(law, state);
     GasSupply supply = gas_supply_of(state);
-    GasInflow inflow = gas_inflow(gas, law, curves, time, time + span, &supply);
+    double since = time - state->inflow_start;
+    GasInflow inflow = gas_inflow(gas, law, curves, since, time + span - state->inflow_start, &supply);
     state->tank_pressure = supply.pressure;
     state->tank_temperature = supply.temperature;
     state->inflator_mass = supply.inflator_mass;

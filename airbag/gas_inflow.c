@@ -73,6 +73,7 @@ GasInflow gas_inflow(const GasModel *gas, const GasLaw *law, const Curve *curves
                      GasSupply *supply)
 {
     GasInflow total = {0};
+    begin = fmax(begin, 0.0);
     while (begin < end) {
         double stop = fmin(end, gas_inflow_next_corner(gas, curves, begin));
         GasInflow piece = {0};

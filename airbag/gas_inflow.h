@@ -30,8 +30,9 @@ double gas_inflow_temperature(const GasModel *gas, const Curve *curves, double t
 /* The tank before the test: ambient gas. */
 GasSupply gas_tank_initial(const GasModel *gas, const GasLaw *law, const Curve *curves, double temperature);
 
-/* Mass and enthalpy that flow in from time begin to end. Exact for piecewise linear mass flow and temperature. The
- * spans of successive calls follow each other: the tank is carried along. */
+/* Mass and enthalpy that flow in from time begin to end, counted from the start of the inflow: nothing before 0. Exact
+ * for piecewise linear mass flow and temperature. The spans of successive calls follow each other: the tank is carried
+ * along. */
 GasInflow gas_inflow(const GasModel *gas, const GasLaw *law, const Curve *curves, double begin, double end,
                      GasSupply *supply);
 

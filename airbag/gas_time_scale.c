@@ -18,9 +18,9 @@ static double corner_after(const Curve *curves, int curve, double time, double m
     return fmin(nearest, curve_next_corner(&curves[curve], time + margin));
 }
 
-static double next_corner(const GasModel *gas, const Curve *curves, double time, double margin)
+static double next_corner(const GasModel *gas, const Curve *curves, double start, double time, double margin)
 {
-    double corner = gas_inflow_next_corner(gas, curves, time + margin);
+    double corner = start < INFINITY ? start + gas_inflow_next_corner(gas, curves, time - start + margin) : INFINITY;
     corner = corner_after(curves, gas->vent_coefficient_time_curve, time, margin, corner);
     corner = corner_after(curves, gas->porosity_coefficient_time_curve, time, margin, corner);
     return corner_after(curves, gas->heat_transfer_curve, time, margin, corner);
@@ -33,7 +33,8 @@ static double fill_scale(const GasModel *gas, const GasLaw *law, const Curve *cu
 {
     for (int i = 0; i < 100; i++) {
         GasSupply supply = gas_supply_of(state);
-        GasInflow inflow = gas_inflow(gas, law, curves, time, time + horizon, &supply);
+        GasInflow inflow =
+            gas_inflow(gas, law, curves, time - state->inflow_start, time - state->inflow_start + horizon, &supply);
         if (!(inflow.mass > 0.0)) return horizon;
         if (!(state->mass > 0.0)) return EMPTY_SHARE * horizon;
         double share = fmax(inflow.mass / state->mass, inflow.enthalpy / state->energy);
@@ -65,7 +66,7 @@ double ideal_gas_time_scale(const GasModel *gas, const Curve *curves, const GasS
         scale = fmin(scale, HEAT_SHARE * state->mass * cv / (coefficient * state->area));
     }
     double margin = 1e-9 * fabs(time); /* the inflow is integrated exactly over a corner that is passed */
-    double corner = next_corner(gas, curves, time, margin);
+    double corner = next_corner(gas, curves, state->inflow_start, time, margin);
     double horizon = fmin(scale, fmin(corner - time, CHAMBER_NO_SCALE));
     return fill_scale(gas, &law, curves, state, time, horizon);
 }

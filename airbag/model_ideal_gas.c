@@ -82,7 +82,8 @@ static int count_substeps(const GasModel *gas, const GasLaw *law, const Curve *c
                           double volume, const GasState *state)
 {
     GasSupply supply = gas_supply_of(state);
-    GasInflow inflow = gas_inflow(gas, law, curves, step->time, step->time + step->dt, &supply);
+    GasInflow inflow = gas_inflow(gas, law, curves, step->time - state->inflow_start,
+                                  step->time + step->dt - state->inflow_start, &supply);
     GasExit exit = gas_exit_flow(gas, law, curves, step->time, state->pressure, state->temperature);
     double out = (exit.vent + exit.porosity) * step->dt;
     int heat = gas->heat_transfer > 0.0 || gas->heat_transfer_curve >= 0;

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "io/keyword_airbag.h"
+#include "io/keyword_airbag_jet.h"
 
 typedef struct BagIdCard {
     int id;
@@ -15,6 +16,13 @@ const FieldSpec airbag_id_fields[AIRBAG_ID_FIELDS] = {CARD_INT("ABID", id, USED,
 
 #define AT(member) offsetof(AirbagDefinition, member)
 const FieldSpec airbag_core_fields[AIRBAG_CORE_FIELDS] = {
+    CARD_INT("SID", sid, USED, ID_SET),          CARD_INT("SIDTYP", sidtyp, USED, NONE),
+    CARD_INT("RBID", rbid, USED, NONE),          CARD_REAL_OR("VSCA", vsca, 1.0, USED, NONE),
+    CARD_REAL_OR("PSCA", psca, 1.0, USED, NONE), CARD_REAL("VINI", vini, USED, VOLUME),
+    CARD_REAL("MWD", mwd, USED, RATE),           CARD_REAL("SPSF", spsf, USED, NONE),
+};
+/* RBID refused: models without an inflow that a sensor could start. */
+const FieldSpec airbag_unsensed_fields[AIRBAG_CORE_FIELDS] = {
     CARD_INT("SID", sid, USED, ID_SET),          CARD_INT("SIDTYP", sidtyp, USED, NONE),
     CARD_INT("RBID", rbid, REFUSED, NONE),       CARD_REAL_OR("VSCA", vsca, 1.0, USED, NONE),
     CARD_REAL_OR("PSCA", psca, 1.0, USED, NONE), CARD_REAL("VINI", vini, USED, VOLUME),
@@ -52,7 +60,7 @@ static const FieldSpec wang5_fields[] = {
     CARD_REAL("PE", pe, USED, PRESSURE),       CARD_REAL("RO", ro, USED, DENSITY),
     CARD_REAL("GC", gc, USED, NONE),           CARD_INT("LCEFR", lcefr, USED, ID_FUNCTION),
     CARD_REAL("POVER", pover, USED, PRESSURE), CARD_REAL("PPOP", ppop, USED, PRESSURE),
-    CARD_REAL("OPT", opt, USED, NONE),         CARD_INT("KNKDN", knkdn, LISTED, ID_FUNCTION),
+    CARD_REAL("OPT", opt, USED, NONE),         CARD_INT("KNKDN", knkdn, USED, ID_FUNCTION),
 };
 static const FieldSpec wang6_fields[] = {
     CARD_REAL("IOC", ioc, USED, NONE),      CARD_REAL("IOA", ioa, USED, AREA),
@@ -84,17 +92,26 @@ static const FieldSpec wang8_fields[] = {
 };
 #undef AT
 
-enum { SIMPLE_CARD3 = AIRBAG_CARD_MODEL, SIMPLE_CARD4A, SIMPLE_CARD4B };
+enum { SIMPLE_CARD3 = AIRBAG_CARD_SENSED, SIMPLE_CARD4A, SIMPLE_CARD4B };
 static const CardSpec simple_cards[] = {
-    AIRBAG_CARDS,
+    AIRBAG_SENSED_CARDS,
     {"card 3", "", CARD_FIELDS(simple3_fields)},
     {"card 4a", "if CV = 0", CARD_FIELDS(simple4a_fields)},
     {"card 4b", "if CV is not 0; may be left out", CARD_FIELDS(simple4b_fields)},
 };
-enum { WANG_CARD3 = AIRBAG_CARD_MODEL, WANG_CARD4, WANG_CARD5, WANG_CARD6, WANG_CARD6_SPARE, WANG_CARD7, WANG_CARD8 };
-enum { WANG_POP = AIRBAG_OPTION_ID + 1 };
+enum {
+    WANG_CARD3 = AIRBAG_CARD_SENSED,
+    WANG_CARD4,
+    WANG_CARD5,
+    WANG_CARD6,
+    WANG_CARD6_SPARE,
+    WANG_CARD7,
+    WANG_CARD8,
+    WANG_JET_CARD
+};
+enum { WANG_POP = AIRBAG_OPTION_ID + 1, WANG_JETTING, WANG_MULTIPLE_JETTING, WANG_CM };
 static const CardSpec wang_cards[] = {
-    AIRBAG_CARDS,
+    AIRBAG_SENSED_CARDS,
     {"card 3", "", CARD_FIELDS(wang3_fields)},
     {"card 4", "", CARD_FIELDS(wang4_fields)},
     {"card 5", "", CARD_FIELDS(wang5_fields)},
@@ -102,9 +119,9 @@ static const CardSpec wang_cards[] = {
     {"card 6", "if LCMT is not 0; to be left blank", CARD_FIELDS(wang6_spare_fields)},
     {"card 7", "if CV = 0", CARD_FIELDS(wang7_fields)},
     {"card 8", "with POP", CARD_FIELDS(wang8_fields)},
+    AIRBAG_JET_CARDS,
 };
 
-/* ID card and card 1. A sensor's cards would follow card 1, so that what comes after it cannot be understood. */
 int airbag_read_core(KeywordRead *read, AirbagDefinition *bag)
 {
     int status = 0;
@@ -119,6 +136,13 @@ int airbag_read_core(KeywordRead *read, AirbagDefinition *bag)
     }
     if (keyword_card(read, AIRBAG_CARD_CORE, bag, true, &bag->card1)) return -1;
     if (!keyword_check_id(read, bag->sid, "SID", bag->card1)) status = -1;
+    return status;
+}
+
+int airbag_read_sensed(KeywordRead *read, AirbagDefinition *bag)
+{
+    int status = airbag_read_core(read, bag);
+    if (airbag_read_sensor(read, AIRBAG_CARD_MODEL, bag)) status = -1;
     return status;
 }
 
@@ -146,7 +170,7 @@ void airbag_store(KeywordRead *read, const AirbagDefinition *card)
 static void read_simple(KeywordRead *read)
 {
     AirbagDefinition bag = {.model = AIRBAG_SIMPLE};
-    if (airbag_read_core(read, &bag)) return;
+    if (airbag_read_sensed(read, &bag)) return;
     if (keyword_card(read, SIMPLE_CARD3, &bag, true, &bag.card3)) return;
     if (bag.mu < 0.0 && !keyword_real_id(read, &bag.mu, SCALE_ID_FUNCTION, "MU", bag.card3)) return;
     if (bag.area < 0.0 && !keyword_real_id(read, &bag.area, SCALE_ID_FUNCTION, "AREA", bag.card3)) return;
@@ -189,7 +213,13 @@ static int check_inflator(const KeywordRead *read, const AirbagDefinition *bag)
         keyword_warning(read, bag->card3, "LCMT = 0 and no inflator on card 6: no gas flows into this bag");
         return 0;
     }
-    if (all && bag->lcbf > 0) return 0;
+    if (all && bag->lcbf > 0 && !bag->jet.given) return 0;
+    if (all && bag->lcbf > 0) {
+        keyword_error(read, bag->card6,
+                      "a jet of the inflator of card 6 is not read by billow " BILLOW_VERSION
+                      "; give the mass flow LCMT and its temperature");
+        return -1;
+    }
     keyword_error(read, bag->card6,
                   "LCMT = 0 asks for the inflator: IOC, IOA, IVOL, IRO, IT must be positive and LCBF "
                   "name the curve of the burnt fraction");
@@ -199,18 +229,24 @@ static int check_inflator(const KeywordRead *read, const AirbagDefinition *bag)
 static void read_wang_nefske(KeywordRead *read)
 {
     AirbagDefinition bag = {.model = AIRBAG_WANG_NEFSKE};
-    if (airbag_read_core(read, &bag)) return;
+    if (airbag_read_sensed(read, &bag)) return;
     if (keyword_card(read, WANG_CARD3, &bag, true, &bag.card3)) return;
     if (keyword_card(read, WANG_CARD4, &bag, true, &bag.card4)) return;
     if (keyword_card(read, WANG_CARD5, &bag, true, &bag.card5)) return;
     const int card6 = bag.lcmt == 0 ? WANG_CARD6 : WANG_CARD6_SPARE;
     const bool pop = keyword_option(read, WANG_POP);
+    const bool jet = keyword_option(read, WANG_JETTING) || keyword_option(read, WANG_MULTIPLE_JETTING);
     const bool needed =
-        bag.lcmt == 0 || bag.cv == 0.0 || pop; /* as the last card it may be left out when it says nothing */
+        bag.lcmt == 0 || bag.cv == 0.0 || pop || jet; /* as the last card it may be left out when it says nothing */
     if ((needed || card_left(read->cards)) && keyword_card(read, card6, &bag, true, &bag.card6)) return;
     bag.card7 = bag.card6;
     if (bag.cv == 0.0 && keyword_card(read, WANG_CARD7, &bag, true, &bag.card7)) return;
     if (pop && keyword_card(read, WANG_CARD8, &bag, true, &bag.card8)) return;
+    if (airbag_read_jet(read, WANG_JET_CARD, keyword_option(read, WANG_JETTING),
+                        keyword_option(read, WANG_MULTIPLE_JETTING), keyword_option(read, WANG_CM), &bag))
+        return;
+    if (bag.knkdn != 0 && !bag.jet.given)
+        keyword_note(read, bag.card5, "KNKDN = %d is read but not used: it applies to jetting only", bag.knkdn);
     keyword_finish(read);
     if (airbag_check_vents(read, &bag)) return;
     if (bag.lcmt < 0 || (bag.lcmt == 0 && bag.tvol != 0.0)) {
@@ -228,14 +264,14 @@ static const KeywordSpec specs[] = {
     {.name = "*AIRBAG_SIMPLE_AIRBAG_MODEL",
      .options = {"ID"},
      .cards = simple_cards,
-     .card_count = 5,
+     .card_count = sizeof simple_cards / sizeof *simple_cards,
      .read = read_simple,
      .remark = "SIDTYP 0: SID is a segment set, else a part set. MU < 0 and AREA < 0 name curves over the absolute "
-               "pressure. The sensor cards of RBID are refused."},
+               "pressure. RBID < 0 is the built-in sensor, RBID > 0 the user's (--sensor-library); both shift LCID."},
     {.name = "*AIRBAG_WANG_NEFSKE",
-     .options = {"ID", "POP"},
+     .options = {"ID", "POP", "JETTING", "MULTIPLE_JETTING", "CM"},
      .cards = wang_cards,
-     .card_count = 9,
+     .card_count = sizeof wang_cards / sizeof *wang_cards,
      .read = read_wang_nefske,
      .remark =
          "Input is a mass flow (LCMT), a tank pressure (LCMT with TVOL) or the inflator of card 6, which releases the "
@@ -247,9 +283,10 @@ static const KeywordSpec specs[] = {
          "by "
          "FLC and FAC. HCONV < 0 names a curve over time. With POP the exits open TDP after PPOP was reached, or TDA "
          "after "
-         "the accelerations of RBIDP in its local axes were exceeded for TDURP in all. The options JETTING, "
-         "MULTIPLE_JETTING "
-         "and CM are refused."},
+         "the accelerations of RBIDP in its local axes were exceeded for TDURP in all. "
+         "RBID < 0 is the built-in sensor, RBID > 0 the user's (--sensor-library); both shift the inflow: LCMT, LCBF, "
+         "LCT and LCDT. LCJRV is over the angle in degrees, CA and BETA below 0 name curves over time; NODE1 and NODE2 "
+         "place the jet in place of the coordinates. A jet needs LCMT, not the inflator of card 6."},
 };
 
 const KeywordFamily keyword_family_airbag = {"Airbags", specs, (int)(sizeof specs / sizeof *specs)};

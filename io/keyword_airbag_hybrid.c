@@ -74,9 +74,9 @@ static const FieldSpec polynomial_fields[] = {
 };
 #undef AT
 
-enum { HYBRID_CARD3 = AIRBAG_CARD_MODEL, HYBRID_CARD4, HYBRID_CARD5, HYBRID_CARD51, HYBRID_CARD52 };
+enum { HYBRID_CARD3 = AIRBAG_CARD_SENSED, HYBRID_CARD4, HYBRID_CARD5, HYBRID_CARD51, HYBRID_CARD52 };
 static const CardSpec hybrid_cards[] = {
-    AIRBAG_CARDS,
+    AIRBAG_SENSED_CARDS,
     {"card 3", "", CARD_FIELDS(hybrid3_fields)},
     {"card 4", "", CARD_FIELDS(hybrid4_fields)},
     {"card 5", "", CARD_FIELDS(hybrid5_fields)},
@@ -84,7 +84,7 @@ static const CardSpec hybrid_cards[] = {
     {"card 5.2", "after each card 5.1", CARD_FIELDS(hybrid52_fields)},
 };
 enum {
-    CHEMKIN_CARD3 = AIRBAG_CARD_MODEL,
+    CHEMKIN_CARD3 = AIRBAG_CARD_SENSED,
     CHEMKIN_CARD4,
     CHEMKIN_CARD5,
     CHEMKIN_CARD6,
@@ -94,7 +94,7 @@ enum {
     CHEMKIN_CARD7B
 };
 static const CardSpec chemkin_cards[] = {
-    AIRBAG_CARDS,
+    AIRBAG_SENSED_CARDS,
     {"card 3", "", CARD_FIELDS(chemkin3_fields)},
     {"card 4", "", CARD_FIELDS(chemkin4_fields)},
     {"card 5", "", CARD_FIELDS(chemkin5_fields)},
@@ -148,7 +148,7 @@ static int check_count(const KeywordRead *read, const AirbagDefinition *bag, Sou
 static void read_hybrid(KeywordRead *read)
 {
     AirbagDefinition bag = {.model = AIRBAG_HYBRID};
-    if (airbag_read_core(read, &bag)) return;
+    if (airbag_read_sensed(read, &bag)) return;
     if (keyword_card(read, HYBRID_CARD3, &bag, true, &bag.card3)) return;
     if (keyword_card(read, HYBRID_CARD4, &bag, true, &bag.card4)) return;
     if (keyword_card(read, HYBRID_CARD5, &bag, true, &bag.card5)) return;
@@ -184,7 +184,7 @@ static int read_chemkin_gas(KeywordRead *read, const AirbagDefinition *bag, Airb
 static void read_chemkin(KeywordRead *read)
 {
     AirbagDefinition bag = {.model = AIRBAG_CHEMKIN};
-    if (airbag_read_core(read, &bag)) return;
+    if (airbag_read_sensed(read, &bag)) return;
     if (keyword_card(read, CHEMKIN_CARD3, &bag, true, &bag.card3)) return;
     if (keyword_card(read, CHEMKIN_CARD4, &bag, true, &bag.card4)) return;
     if (keyword_card(read, CHEMKIN_CARD5, &bag, true, &bag.card5)) return;

@@ -152,6 +152,30 @@ static void write_gas(const Airbag *bag, const GasState *gas, FILE *stream)
                 model->leaks[i].initial_area);
 }
 
+/* What starts the inflow, and its jet. */
+static void write_inflator(const Model *model, int airbag, FILE *stream)
+{
+    for (int i = 0; i < model->sensor_count; i++) {
+        const Sensor *sensor = &model->sensors[i];
+        if (model->sensor_airbag[i] != airbag) continue;
+        fprintf(stream, "    sensor on part %d, %s: the inflow starts when it fires\n", sensor->part_id,
+                sensor->function ? "the user's function" : "built in");
+    }
+    for (int i = 0; i < model->jet_count; i++) {
+        const Jet *jet = &model->jets[i];
+        if (jet->airbag != airbag) continue;
+        fprintf(stream, "    jet%s: %s from (%.6g, %.6g, %.6g) towards (%.6g, %.6g, %.6g)%s",
+                jet->same_momentum ? " of constant momentum" : "",
+                jet->multiple ? "by angle"
+                : jet->wedge  ? "wedge"
+                              : "cone",
+                jet->focus[0], jet->focus[1], jet->focus[2], jet->head[0], jet->head[1], jet->head[2],
+                jet->moving ? ", on nodes" : "");
+        if (jet->react_node >= 0) fprintf(stream, ", reaction on node %d", model->node_id[jet->react_node]);
+        fputc('\n', stream);
+    }
+}
+
 void report_write_airbags(const Model *model, const State *state, FILE *stream)
 {
     if (model->airbag_count == 0) return;
@@ -162,6 +186,7 @@ void report_write_airbags(const Model *model, const State *state, FILE *stream)
                 bag->part_count, bag->part_count == 1 ? "" : "s", bag->node_count);
         write_closure(&bag->closure, stream);
         if (state) write_gas(bag, &state->gas[i], stream);
+        write_inflator(model, i, stream);
     }
 }
 

@@ -1,8 +1,9 @@
 /* *AIRBAG cards of the models whose pressure follows a law of volume and time -> gas models. */
 #include "solver/build_airbags.h"
 
-int airbag_pressure_volume(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+int airbag_pressure_volume(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
 {
+    GasModel *gas = &airbag->gas;
     int status = 0;
     PressureVolumeLaw *law = &gas->pressure_volume;
     gas->kind = GAS_PRESSURE_VOLUME;
@@ -15,8 +16,9 @@ int airbag_pressure_volume(Builder *b, const AirbagDefinition *bag, GasModel *ga
     return status;
 }
 
-int airbag_adiabatic(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+int airbag_adiabatic(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
 {
+    GasModel *gas = &airbag->gas;
     int status = 0;
     gas->kind = GAS_ADIABATIC;
     gas->adiabatic.factor = bag->psf;
@@ -28,8 +30,9 @@ int airbag_adiabatic(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     return status;
 }
 
-int airbag_load_curve(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+int airbag_load_curve(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
 {
+    GasModel *gas = &airbag->gas;
     int status = 0;
     gas->kind = GAS_LOAD_CURVE;
     gas->load_curve.start_time = bag->stime;
@@ -42,8 +45,9 @@ int airbag_load_curve(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     return status;
 }
 
-int airbag_linear_fluid(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+int airbag_linear_fluid(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
 {
+    GasModel *gas = &airbag->gas;
     int status = 0;
     LinearFluidLaw *law = &gas->fluid;
     gas->kind = GAS_LINEAR_FLUID;
@@ -60,8 +64,9 @@ int airbag_linear_fluid(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     return status;
 }
 
-int airbag_fluid_and_gas(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+int airbag_fluid_and_gas(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
 {
+    GasModel *gas = &airbag->gas;
     int status = 0;
     FluidAndGasLaw *law = &gas->fluid_and_gas;
     gas->kind = GAS_FLUID_AND_GAS;

@@ -104,8 +104,9 @@ static int hybrid_gas(Builder *b, const AirbagDefinition *bag, int i, GasSpecies
     return status;
 }
 
-int airbag_hybrid(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+int airbag_hybrid(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
 {
+    GasModel *gas = &airbag->gas;
     GasSpecies *species;
     GasSource *sources;
     gas->kind = GAS_HYBRID;
@@ -120,7 +121,7 @@ int airbag_hybrid(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     gas->total_inflow = bag->lcidm0 != 0;
     gas->exit_flow_curve = airbag_curve(b, bag->lcefr, "LCEFR", bag->card5, &status);
     gas->pop_pressure = bag->ppop;
-    if (airbag_vents(b, bag, gas)) status = -1;
+    if (airbag_vents(b, bag, airbag)) status = -1;
     if (status || initial_fractions(b, bag, bag->lcidm0 != 0, "INITM", initial, species, sources)) return -1;
     check_density(b, bag, gas);
     return 0;
@@ -180,8 +181,9 @@ static int chemkin_species(Builder *b, const AirbagDefinition *bag, const Airbag
     return 0;
 }
 
-int airbag_chemkin(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+int airbag_chemkin(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
 {
+    GasModel *gas = &airbag->gas;
     GasSpecies *species;
     GasSource *sources;
     gas->kind = GAS_CHEMKIN;

@@ -22,6 +22,27 @@ int airbag_spline(Builder *b, int id, const char *field, Source source, int *sta
     return index;
 }
 
+/* The same for fields that take functions too, which are listed with the bag. *DEFINE_FUNCTION gets at most pressure,
+ * volume and time. */
+int airbag_exit_curve(Builder *b, Airbag *bag, int id, const char *field, Source source, int *status)
+{
+    if (id == 0) return -1;
+    int index = deck_index_curve_or_function(&b->index, id < 0 ? -id : id, field, source, "*AIRBAG", b->diagnostics);
+    int function = index - b->model->first_function;
+    if (index < 0) *status = -1;
+    if (function < 0) return index;
+    if (b->model->functions[function].argument_count > 3) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, source, "*AIRBAG",
+                        "%s = %d: the function has %d arguments, but gets three: pressure, volume and time", field, id,
+                        b->model->functions[function].argument_count);
+        *status = -1;
+    }
+    for (int i = 0; i < bag->function_count; i++)
+        if (bag->function[i] == function) return index;
+    bag->function[bag->function_count++] = function;
+    return index;
+}
+
 int airbag_error(Builder *b, Source source, const char *text)
 {
     diagnostics_add(b->diagnostics, SEVERITY_ERROR, source, "*AIRBAG", "%s", text);
@@ -58,8 +79,9 @@ static int common_fields(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     return 0;
 }
 
-int airbag_simple(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+int airbag_simple(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
 {
+    GasModel *gas = &airbag->gas;
     int status = common_fields(b, bag, gas);
     gas->kind = GAS_SIMPLE;
     gas->mass_flow_curve = airbag_curve(b, bag->lcid, "LCID", bag->card3, &status);
@@ -75,29 +97,34 @@ int airbag_simple(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     return status;
 }
 
-int airbag_vents(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+int airbag_vents(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
 {
+    GasModel *gas = &airbag->gas;
     int status = 0;
     gas->vent_coefficient = bag->c23;
     gas->vent_area = bag->a23 > 0.0 ? bag->a23 : 0.0;
     if (bag->c23 == 0.0 && bag->lcc23 < 0)
-        gas->vent_coefficient_ratio_curve = airbag_curve(b, bag->lcc23, "LCC23", bag->card4, &status);
+        gas->vent_coefficient_ratio_curve = airbag_exit_curve(b, airbag, bag->lcc23, "LCC23", bag->card4, &status);
     else if (bag->c23 == 0.0)
-        gas->vent_coefficient_time_curve = airbag_curve(b, bag->lcc23, "LCC23", bag->card4, &status);
-    if (bag->a23 == 0.0) gas->vent_area_pressure_curve = airbag_curve(b, bag->lca23, "LCA23", bag->card4, &status);
+        gas->vent_coefficient_time_curve = airbag_exit_curve(b, airbag, bag->lcc23, "LCC23", bag->card4, &status);
+    if (bag->a23 == 0.0)
+        gas->vent_area_pressure_curve = airbag_exit_curve(b, airbag, bag->lca23, "LCA23", bag->card4, &status);
     if (bag->opt == 0.0) {
         gas->porosity_coefficient = bag->cp23;
         gas->porosity_area = bag->ap23;
         if (bag->cp23 == 0.0)
-            gas->porosity_coefficient_time_curve = airbag_curve(b, bag->lccp23, "LCCP23", bag->card4, &status);
+            gas->porosity_coefficient_time_curve =
+                airbag_exit_curve(b, airbag, bag->lccp23, "LCCP23", bag->card4, &status);
         if (bag->ap23 == 0.0)
-            gas->porosity_area_pressure_curve = airbag_curve(b, bag->lcap23, "LCAP23", bag->card4, &status);
+            gas->porosity_area_pressure_curve =
+                airbag_exit_curve(b, airbag, bag->lcap23, "LCAP23", bag->card4, &status);
     }
     return status;
 }
 
-int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, GasModel *gas)
+int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
 {
+    GasModel *gas = &airbag->gas;
     int status = common_fields(b, bag, gas);
     gas->kind = GAS_WANG_NEFSKE;
     gas->temperature_curve = airbag_curve(b, bag->lct, "LCT", bag->card3, &status);
@@ -114,7 +141,7 @@ int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, GasModel *gas)
     }
     if (bag->iabt > 0.0) gas->initial_temperature = bag->iabt;
     gas->gravity_conversion = bag->gc != 0.0 ? bag->gc : 1.0;
-    if (airbag_vents(b, bag, gas)) status = -1;
+    if (airbag_vents(b, bag, airbag)) status = -1;
     gas->exit_flow_curve = airbag_curve(b, bag->lcefr, "LCEFR", bag->card5, &status);
     gas->overpressure = bag->pover;
     gas->pop_pressure = bag->ppop;
@@ -146,7 +173,7 @@ static int build_pop(Builder *b, const AirbagDefinition *d, Airbag *bag)
     return -1;
 }
 
-static int (*const build_model[])(Builder *, const AirbagDefinition *, GasModel *) = {
+static int (*const build_model[])(Builder *, const AirbagDefinition *, Airbag *) = {
     [AIRBAG_SIMPLE] = airbag_simple,
     [AIRBAG_WANG_NEFSKE] = airbag_wang_nefske,
     [AIRBAG_HYBRID] = airbag_hybrid,
@@ -174,7 +201,7 @@ static int build_airbag(Builder *b, int number)
         diagnostics_add(b->diagnostics, SEVERITY_WARNING, definition->card1, "*AIRBAG",
                         "SPSF has no effect: this model has no ambient density");
     gas_model_reset(&bag->gas);
-    int status = build_model[definition->model](b, definition, &bag->gas);
+    int status = build_model[definition->model](b, definition, bag);
     if (build_pop(b, definition, bag) || airbag_leakage(b, definition, bag)) status = -1;
     bag->ambient = bag->gas.ambient_pressure;
     if (status) return -1;

@@ -64,10 +64,12 @@ int build_curves(Builder *b)
 {
     const Definitions *d = b->definitions;
     int status = 0;
-    b->model->curves = builder_alloc(b, 2 * d->curves.count + 1, sizeof *b->model->curves);
+    b->model->first_function = 2 * (int)d->curves.count; /* room for a spline of each curve */
+    b->model->curves = builder_alloc(b, 2 * d->curves.count + d->functions.count + 1, sizeof *b->model->curves);
     if (!b->model->curves) return -1;
     b->model->curve_count = (int)d->curves.count;
     for (size_t i = 0; i < d->curves.count; i++)
         if (build_curve(b, &d->curves.items[i], &b->model->curves[i])) status = -1;
+    if (build_functions(b)) status = -1;
     return status;
 }

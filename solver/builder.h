@@ -79,7 +79,9 @@ int build_shells(Builder *builder);    /* shells -> records, masses */
 int build_links(Builder *builder);     /* beams, springs, cables -> links, masses of nodes; after build_shells */
 int build_link_ends(Builder *builder); /* which links share an end, and its mass; after build_renumber */
 int build_solids(Builder *builder);    /* solids -> masses of their nodes; after build_shells */
-int build_curves(Builder *builder);
+int build_curves(Builder *builder);    /* and functions */
+int build_functions(Builder *builder); /* by build_curves */
+void renumber_functions(Builder *builder, const int32_t *new_index); /* by build_renumber */
 int build_spline(Builder *builder, int curve); /* index of a curve's points as a cubic spline; -1 without memory */
 int build_surfaces(Builder *builder);          /* airbags' surfaces: orientation and caps */
 int build_pressure_sets(Builder *builder);     /* and segment loads -> pressure sets; after build_motion */
@@ -93,5 +95,8 @@ int build_groups(Builder *builder);            /* blocks, kernel constants */
 int build_rows(Builder *builder);              /* segments and rows of corner sums */
 int build_walls(Builder *builder);             /* rigid walls and their nodes; after build_shells */
 int build_wall_nodes(Builder *builder);        /* the same in the model's order; after build_renumber */
+int build_jets(Builder *builder);              /* after build_groups */
+void mark_jet_nodes(Builder *builder, unsigned char *special); /* by build_renumber: NREACT */
+int build_sensors(Builder *builder);                           /* after the motion is taken over */
 
 #endif

@@ -8,8 +8,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "airbag/billow_sensor.h"
 #include "solver/billow.h"
 #include "solver/diagnostics.h"
+#include "solver/function.h"
 
 /* A growing array of records: item type T, e.g. LIST(NodeDefinition) nodes. Grow with memory_reserve. */
 #define LIST(T)                                                                                                        \
@@ -215,6 +217,15 @@ typedef struct CurveDefinition {
     Source source;
 } CurveDefinition;
 
+/* *DEFINE_CURVE_FUNCTION and *DEFINE_FUNCTION, compiled; owns program.code. */
+typedef struct FunctionDefinition {
+    int id, sidr;
+    bool is_curve; /* *DEFINE_CURVE_FUNCTION: shares its ids with *DEFINE_CURVE */
+    char title[BILLOW_TITLE_LENGTH];
+    FunctionProgram program;
+    Source source;
+} FunctionDefinition;
+
 /* *DEFINE_COORDINATE_NODES: three nodes; _SYSTEM: origin, point on x, point in xy; _VECTOR: x axis and xy vector. */
 typedef struct CoordinateDefinition {
     enum { COORDINATE_NODES, COORDINATE_SYSTEM, COORDINATE_VECTOR } kind;
@@ -403,6 +414,24 @@ typedef struct AirbagGasDefinition {
     Source source;                             /* of the first card */
 } AirbagGasDefinition;
 
+/* Cards 2a or 2b of *AIRBAG with RBID. */
+typedef struct SensorCards {
+    double a[4], tdur, dv[4], u[4]; /* levels of x, y, z and magnitude */
+    int n;                          /* user's constants */
+    double c[BILLOW_SENSOR_CONSTANTS];
+} SensorCards;
+
+/* Cards 9 to 11 of *AIRBAG_WANG_NEFSKE_JETTING and the like. */
+typedef struct JetCards {
+    bool given, multiple, cm;
+    double focus[3], head[3], second[3];
+    double ca, beta; /* ca: CA or LCJRV */
+    int psid;
+    double angle;
+    int node[3], nreact;
+    Source card9, card10, card11;
+} JetCards;
+
 /* *AIRBAG_<model>(_ID): cards as in the manual; the Source of every card so that messages name the right line. */
 typedef struct AirbagDefinition {
     AirbagModel model;
@@ -441,6 +470,8 @@ typedef struct AirbagDefinition {
     int lcxw, lcp;
     double gdir, kappa, kbm; /* FLUID_AND_GAS 4 */
     int nproj, idir, iidir;
+    SensorCards sensor;
+    JetCards jet;
     Source source, card1, card3, card4, card5, card6, card7, card8;
 } AirbagDefinition;
 
@@ -495,6 +526,7 @@ typedef struct Definitions {
     LIST(HourglassDefinition) hourglasses;
     LIST(SetDefinition) sets;
     LIST(CurveDefinition) curves;
+    LIST(FunctionDefinition) functions;
     LIST(CoordinateDefinition) coordinates;
     LIST(VectorDefinition) vectors;
     LIST(BoxDefinition) boxes;

@@ -13,6 +13,8 @@
 
 #include "airbag/connection.h"
 #include "airbag/gas.h"
+#include "airbag/jet.h"
+#include "airbag/sensor.h"
 #include "airbag/surface.h"
 #include "contact/rigid_wall.h"
 #include "elements/law.h"
@@ -21,6 +23,7 @@
 #include "solver/constraints.h"
 #include "solver/curve.h"
 #include "solver/diagnostics.h"
+#include "solver/function.h"
 #include "solver/loads.h"
 #include "solver/rigid_body.h"
 
@@ -82,6 +85,7 @@ typedef struct Solid {
     int32_t node[8];
     double share[8]; /* [M] */
 } Solid;
+enum { BILLOW_BAG_FUNCTIONS = 8 };
 
 /* One control volume. */
 typedef struct Airbag {
@@ -100,6 +104,8 @@ typedef struct Airbag {
     int pop_part;    /* RBIDP: index of the part whose acceleration may open the exits, -1 none */
     int facet_count; /* FLUID_AND_GAS only: its surface, wound outwards (facet_count x 4) */
     int32_t *facet;
+    int function[BILLOW_BAG_FUNCTIONS]; /* indices of the functions that the gas uses (function_count) */
+    int function_count;
     double ambient; /* pressure outside: applied pressure = p - ambient */
     Source source;
 } Airbag;
@@ -167,8 +173,18 @@ typedef struct Model {
     int *group_place; /* place of each group in each bag's list of parts, -1 none (group_count x airbag_count) */
     bool has_fluid;   /* a bag of FLUID_AND_GAS: pressure by height */
     bool blockage;    /* contact blocks leaking fabric, vents or openings: State.contact_share is there */
+    int sensor_count;
+    Sensor *sensors;      /* airbag/sensor.h (sensor_count) */
+    int *sensor_airbag;   /* index of the airbag that each starts (sensor_count) */
+    void *sensor_library; /* handle of dlopen, NULL none */
+    int jet_count, jet_facet_count;
+    Jet *jets; /* airbag/jet.h (jet_count); their facets: jet_facet_count */
     int curve_count;
-    Curve *curves;
+    Curve
+        *curves; /* (first_function + function_count): after room for splines one of a single point for each function */
+    int first_function; /* index of the first function's curve, >= curve_count */
+    int function_count;
+    FunctionProgram *functions; /* solver/function.h, set as curves in solver/step_functions.c */
     int segment_load_count;
     SegmentLoad *segment_loads; /* solver/loads.h */
     Loads loads;                /* node loads, body classes: solver/loads.h */

@@ -56,6 +56,10 @@ typedef struct State {
     double *link_energy;      /* stored in each link at the last cycle (link_count), written by links_act */
     WallState *wall;          /* (wall_count), contact/rigid_wall.h */
     unsigned char *wall_side; /* WALL_SIDE_... of each node (wall_count x moving_count), written by step_walls */
+    SensorState *sensor;      /* (sensor_count), airbag/sensor.h */
+    JetState *jet;            /* (jet_count), airbag/jet.h */
+    double *jet_shape;        /* (jet_facet_count): > 0 the jet's pressure is strength times it, 0 out of its reach,
+                                 -1 hidden */
 } State;
 
 /* Bytes that a State of this model needs. */

@@ -120,7 +120,7 @@ static int allocate(Workspace *w)
                       w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
-    return 0;
+    return step_functions_allocate(w) || step_jets_allocate(w) ? -1 : 0;
 }
 
 static void release(Workspace *w)
@@ -133,6 +133,8 @@ static void release(Workspace *w)
                       w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
                       w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
+    step_functions_release(w);
+    step_jets_release(w);
 }
 
 static void prepare(Workspace *w)
@@ -185,6 +187,7 @@ static void loop(void *context, int thread, Team *team)
         team_barrier(team);
         if (w->failure->failed) break;
         times->waiting += lap(&since);
+        if (w->jets) step_jets_push(w, thread, team);
         if (w->plan.implicit_gas) {
             step_gas_pass(w, thread, threads);
             team_barrier(team);
@@ -200,6 +203,7 @@ static void loop(void *context, int thread, Team *team)
             if (thread == 0) step_special(w);
             team_barrier(team);
         }
+        if (w->jets) step_jets_count(w, thread, team);
         times->waiting += lap(&since);
         if (!w->plan.emit) continue;
         if (thread == 0) step_emit(w);

@@ -124,8 +124,8 @@ static int advance_bag(Workspace *w, int i, double time, double dt)
         .areas = {w->state->part_area + bag->first_part, w->state->part_blocked + bag->first_part},
     };
     const char *why = "";
-    if (!gas_advance(&bag->gas, w->model->curves, bag->vsca, bag->psca, bag->vini, &step, &w->state->gas[i], &why))
-        return 0;
+    if (bag->function_count > 0) step_functions_select(w, i);
+    if (!gas_advance(&bag->gas, w->curves, bag->vsca, bag->psca, bag->vini, &step, &w->state->gas[i], &why)) return 0;
     step_fail(w,
               "look at the last state written: walls that pass through each other or a step that is too large "
               "do this; lower TSSFAC, or close the bag",
@@ -165,6 +165,8 @@ int step_bags(Workspace *w)
     measure_bags(w);
     measure_parts(w);
     measure_fluid(w, w->plan.time, dt > 0.0);
+    for (int i = 0; i < w->model->airbag_count; i++) /* the values of all before any gas is advanced */
+        if (w->model->airbags[i].function_count > 0 && step_functions_evaluate(w, i)) return -1;
     if (!(dt > 0.0)) return 0;
     connect_bags(w, time, 0.5 * dt, false);
     for (int i = 0; i < w->model->airbag_count; i++) sense_pop(w, i, time, dt);
@@ -176,12 +178,13 @@ int step_bags(Workspace *w)
     return 0;
 }
 
-double step_bags_scale(const Workspace *w)
+double step_bags_scale(Workspace *w)
 {
     const Model *m = w->model;
     double scale = 1e20;
     for (int i = 0; i < m->airbag_count; i++) {
-        double own = gas_time_scale(&m->airbags[i].gas, m->curves, &w->state->gas[i], w->plan.time);
+        if (m->airbags[i].function_count > 0) step_functions_select(w, i);
+        double own = gas_time_scale(&m->airbags[i].gas, w->curves, &w->state->gas[i], w->plan.time);
         scale = own < scale ? own : scale;
     }
     for (int i = 0; i < m->connection_count; i++) {

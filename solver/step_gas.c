@@ -107,7 +107,7 @@ static void set_classes(Workspace *w)
 
 /* A step that resolves the gas when no element asks for one: its own time scale, and a thousandth of the period scale
  * of walls that move on it. */
-static double gas_step(const Workspace *w, double gas_rate)
+static double gas_step(Workspace *w, double gas_rate)
 {
     const Model *m = w->model;
     double step = m->end_time / 1000.0, own = step_bags_scale(w);
@@ -176,6 +176,7 @@ void step_gas(Workspace *w)
     w->plan.dt_before = clock->step;
     double rate = sum_chunks(w);
     if (step_bags(w)) return;
+    if (m->sensor_count > 0) step_sensors(w);
     set_pressures(w);
     if (m->loads.class_count > 0) set_classes(w);
     w->plan.last = clock->time >= m->end_time || (m->end_cycle > 0 && clock->cycle >= m->end_cycle);
@@ -185,5 +186,6 @@ void step_gas(Workspace *w)
     w->plan.node_advance = w->plan.emit || m->wall_count > 0 ? 0.0 : w->plan.dt_next;
     w->closed = w->plan.emit;
     if (m->wall_count > 0) step_walls_begin(w);
+    if (w->jets) step_jets_prepare(w);
     if (!w->plan.emit) step_tick(w);
 }

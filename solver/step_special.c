@@ -133,6 +133,7 @@ void step_special(Workspace *w)
     NodeSums *t = &w->node_sums[w->node_chunk_count];
     ptrdiff_t first = 3 * (ptrdiff_t)m->free_count, count = 3 * (ptrdiff_t)(m->moving_count - m->free_count);
     *t = (NodeSums){0};
+    if (w->jets) step_jets_sum(w);
     if (count == 0) {
         if (m->has_moving_walls) step_walls_special(w, t);
         return;
@@ -141,6 +142,7 @@ void step_special(Workspace *w)
     gather_special(w, t, false);
     push_rims(w);
     links_act(m, state, w->force);
+    if (w->jets) step_jets_react(w, t);
     loads_apply_points(&m->loads, m->curves, plan->time, state->x, w->force);
     constraints_fold_forces(&m->constraints, w->force);
     accelerate(w);
@@ -152,6 +154,7 @@ void step_special(Workspace *w)
     constraints_place_hanging(&m->constraints, state->v);
     t->reaction += loads_points_work(&m->loads, m->curves, plan->time, state->x, w->before, state->v, plan->dt_mean);
     gather_special(w, t, true);
+    if (w->jets) step_jets_count_reaction(w, t);
     count_energy(w, t);
     if (plan->emit) return;
     for (ptrdiff_t i = first; i < first + count; i++) state->x[i] += plan->dt_next * state->v[i];

@@ -100,8 +100,8 @@ static void test_unknown_keywords(void **state)
     assert_one_error("*PART_CONTACT\nx\n         1\n", 1, "*PART_CONTACT", "the option CONTACT of *PART is not read");
     assert_one_error("*ELEMENT_SHELL_OFFSET\n       5       1       1       2       3       4\n", 1,
                      "*ELEMENT_SHELL_OFFSET", "the option OFFSET of *ELEMENT_SHELL is not read");
-    assert_one_error("*AIRBAG_WANG_NEFSKE_JETTING_ID\n         1\n", 1, "*AIRBAG_WANG_NEFSKE_JETTING_ID",
-                     "the option JETTING_ID of *AIRBAG_WANG_NEFSKE is not read");
+    assert_one_error("*AIRBAG_HYBRID_JETTING_ID\n         1\n", 1, "*AIRBAG_HYBRID_JETTING_ID",
+                     "the option JETTING_ID of *AIRBAG_HYBRID is not read");
     assert_one_error("*AIRBAG_PARTICLE\n         1\n", 1, "*AIRBAG_PARTICLE", "is not read by billow");
 }
 
@@ -119,7 +119,7 @@ static void test_refused_features(void **state)
         int line;
         const char *part;
     } cases[] = {
-        {{"4", "1", "0", "0", "0"}, 2, "RBID"},
+        {{"0", "-1", "0", "0", "0"}, 3, "LCMT"},
         {{"0", "1", "-3.5", "0", "0"}, 4, "A23"},
         {{"0", "0", "0", "0", "0.5"}, 6, "IOC"},
         {{"0", "1", "0", "9", "0"}, 5, "OPT is 9"},
