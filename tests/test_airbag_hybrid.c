@@ -9,7 +9,7 @@
     "*DEFINE_CURVE\n3\n0,0\n0.01,1\n0.03,0.5\n0.05,0.5\n*DEFINE_CURVE\n4\n0,0.5\n0.05,0.2\n"                           \
     "*DEFINE_CURVE\n5\n0,500\n0.01,800\n0.05,700\n*DEFINE_CURVE\n6\n0,400\n0.05,400\n"                                 \
     "*DEFINE_CURVE\n7\n0,0.001\n1e6,0.002\n*DEFINE_CURVE\n8\n0,0.5\n0.05,1\n*DEFINE_CURVE\n11\n0,0\n0.05,900\n*"       \
-    "DEFINE_CURVE\n10\n0,0.2\n0.05,0.9\n"
+    "DEFINE_CURVE\n10\n0,0.2\n0.05,0.9\n*DEFINE_CURVE_FUNCTION\n12\n1.E-3\n"
 
 /* One card of the base deck in another form. */
 typedef struct Change {
@@ -84,6 +84,19 @@ static void hybrid_fields(void **state)
     double first = result_of("HYBRID", two, 9, NULL, 0);
     Change initial[2] = {{"INITM", 3, helium[1]}, {"INITM", 7, helium[0]}};
     box_differs("INITM", first, result_of("HYBRID", two, 9, initial, 2));
+}
+
+/* A user's function as a vent's area does as the constant, also behind the splines that the inflow asks for. */
+static void hybrid_functions(void **state)
+{
+    (void)state;
+    static const char *const inflows[2] = {"3,5,0,0.028,0,29,0,0", "-3,-5,0,0.028,0,29,0,0"};
+    for (int i = 0; i < 2; i++) {
+        const Change constant[] = {{"", 5, inflows[i]}},
+                     function[] = {{"", 5, inflows[i]}, {"", 1, "0.8,0,0,12,0,0,0,0"}};
+        double expected = result_of("HYBRID", hybrid, 7, constant, 1);
+        verify_close("LCA23 by a function", result_of("HYBRID", hybrid, 7, function, 2), expected, 1e-12);
+    }
 }
 
 /* ATMOSD is the ambient density of SPSF, and is compared with what the gas is. */
@@ -238,8 +251,9 @@ static void refusals(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(hybrid_fields), cmocka_unit_test(hybrid_density),
-                                       cmocka_unit_test(tank),          cmocka_unit_test(chemkin_fields),
-                                       cmocka_unit_test(chemkin_data),  cmocka_unit_test(refusals)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(hybrid_fields),  cmocka_unit_test(hybrid_functions),
+                                       cmocka_unit_test(hybrid_density), cmocka_unit_test(tank),
+                                       cmocka_unit_test(chemkin_fields), cmocka_unit_test(chemkin_data),
+                                       cmocka_unit_test(refusals)};
     return cmocka_run_group_tests_name("mixtures", tests, NULL, NULL);
 }

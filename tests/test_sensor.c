@@ -18,7 +18,11 @@ typedef struct SensorCase {
     const char *frame;  /* card 3 of the plate's *MAT_RIGID, "" none */
     const char *motion; /* *BOUNDARY_PRESCRIBED_MOTION_RIGID cards with their curves */
     const char *library;
+    const char *model; /* keyword and %s for the cards, NULL: WANG_NEFSKE */
 } SensorCase;
+
+static const char *const wang_nefske = "*AIRBAG_WANG_NEFSKE\n1,1,%s700.,1000.,400.,0,1,0,0,293.\n0,0,0,0,0,0,0,0\n"
+                                       "101325.,1.2,1.,0,0,0,0,0\n0,0,0,0,0,0\n";
 
 static const char *const box =
     "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
@@ -34,11 +38,10 @@ static const char *const box =
 static void build(VerifyRun *run, const SensorCase *c, int *status)
 {
     static char text[8000];
+    const char *model = c->model ? c->model : wang_nefske, *rest = strstr(model, "%s") + 2;
     int length = snprintf(text, sizeof text,
-                          "*KEYWORD\n%s*MAT_RIGID\n2,1000.,1.E9,0.3\n\n%s"
-                          "*AIRBAG_WANG_NEFSKE\n1,1,%s700.,1000.,400.,0,1,0,0,293.\n0,0,0,0,0,0,0,0\n"
-                          "101325.,1.2,1.,0,0,0,0,0\n0,0,0,0,0,0\n%s*DATABASE_ABSTAT\n1.E-3\n*END\n",
-                          box, c->frame, c->cards, c->motion);
+                          "*KEYWORD\n%s*MAT_RIGID\n2,1000.,1.E9,0.3\n\n%s%.*s%s%s%s*DATABASE_ABSTAT\n1.E-3\n*END\n",
+                          box, c->frame, (int)(rest - 2 - model), model, c->cards, rest, c->motion);
     assert_true(length < (int)sizeof text);
     *status = verify_build(run, text, (size_t)length, &(VerifyOptions){.every = 1});
     if (*status && c->library) diagnostics_print(&run->diagnostics, SEVERITY_ERROR, stderr);
@@ -106,6 +109,52 @@ static void levels_fire(void **state)
     }
 }
 
+/* Mixtures wait as the single gas does: mass flow and temperature of each gas, or of all. */
+static void mixtures_wait(void **state)
+{
+    (void)state;
+    static const char *const models[] = {
+        "*AIRBAG_HYBRID\n1,1,%s293.,101325.,1.2,8.314\n0\n0,0,1\n1,2,0,0.029,1,28.\n0\n*DEFINE_CURVE\n2\n0,400.\n1,400."
+        "\n",
+        "*AIRBAG_HYBRID\n1,1,%s293.,101325.,1.2,8.314\n0\n0,0,1,0,1\n3,2,0,0.029,1,28.\n0\n"
+        "*DEFINE_CURVE\n2\n0,400.\n1,400.\n*DEFINE_CURVE\n3\n0,1.\n1,1.\n",
+        "*AIRBAG_HYBRID_CHEMKIN\n1,1,%s1,2,1,2,293.,101325.,8.314\n0\n0\nN2,0.028,0,1,1\n"
+        "*DEFINE_CURVE\n2\n0,400.\n1,400.\n"};
+    for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
+        SensorCase c = {.cards = LEVELS("50.,0,0,0,0", "0,0,0,0", "0,0,0,0"), .motion = pulses, .model = models[i]};
+        c.frame = "1.,0.,0.,0.,1.,0.\n";
+        assert_fires(models[i], &c, 0.01, 2e-4);
+        c.cards = LEVELS("150.,0,0,0,0", "0,0,0,0", "0,0,0,0");
+        assert_true(firing_time(&c) > 1);
+    }
+}
+
+/* The inflator's chamber burns from when the sensor fires: nothing is in the bag before, all it has at the end. */
+static void inflator_waits(void **state)
+{
+    (void)state;
+    SensorCase c = {.cards = LEVELS("50.,0,0,0,0", "0,0,0,0", "0,0,0,0"), .motion = pulses};
+    c.frame = "1.,0.,0.,0.,1.,0.\n";
+    c.model = "*AIRBAG_WANG_NEFSKE\n1,1,%s700.,1000.,400.,0,0,0,0,293.\n0,0,0,0,0,0,0,0\n101325.,1.2,1.,0,0,0,0,0\n"
+              "1.,1.E-3,1.E-3,1000.,800.,2\n*DEFINE_CURVE\n2\n0,0\n0.005,1.\n1.,1.\n";
+    double in[2];
+    for (int i = 0; i < 2; i++) {
+        VerifyRun run;
+        int status;
+        if (i == 1) c.cards = "0,1,1,0,0,0\n";
+        build(&run, &c, &status);
+        assert_int_equal(status, 0);
+        assert_int_equal(verify_loop(&run), 0);
+        double start = run.state.gas[0].inflow_start;
+        for (size_t k = 0; k < run.count; k++)
+            if (run.samples[k].time <= start) assert_true(run.samples[k].mass == run.state.gas[0].initial_mass);
+        in[i] = verify_at(&run, start + 0.01, offsetof(VerifySample, mass)) - run.state.gas[0].initial_mass;
+        assert_true(in[i] > 0.1);
+        verify_free(&run);
+    }
+    verify_close("mass 10 ms after the start", in[0], in[1], 1e-3);
+}
+
 /* The frame: vectors, a coordinate system, principal axes; it turns with the body. */
 static void frame_is_local(void **state)
 {
@@ -120,9 +169,9 @@ static void frame_is_local(void **state)
     assert_fires("LCO", &c, 0.01, 2e-4);
     c.frame = ""; /* longest along x, so the smallest moment is about x */
     c.motion = pulses;
-    double x = firing_time(&(SensorCase){LEVELS("50.,0,0,0,0", "0,0,0,0", "0,0,0,0"), "", pulses, NULL});
-    double y = firing_time(&(SensorCase){LEVELS("0,50.,0,0,0", "0,0,0,0", "0,0,0,0"), "", pulses, NULL});
-    double z = firing_time(&(SensorCase){LEVELS("0,0,50.,0,0", "0,0,0,0", "0,0,0,0"), "", pulses, NULL});
+    double x = firing_time(&(SensorCase){LEVELS("50.,0,0,0,0", "0,0,0,0", "0,0,0,0"), "", pulses, NULL, NULL});
+    double y = firing_time(&(SensorCase){LEVELS("0,50.,0,0,0", "0,0,0,0", "0,0,0,0"), "", pulses, NULL, NULL});
+    double z = firing_time(&(SensorCase){LEVELS("0,0,50.,0,0", "0,0,0,0", "0,0,0,0"), "", pulses, NULL, NULL});
     assert_int_equal((x < 1) + (y < 1) + (z < 1), 1); /* just one principal axis lies along x */
     /* a quarter turn about z by 5 ms: what pushes along global x is then felt along local -y */
     c.frame = "1.,0.,0.,0.,1.,0.\n";
@@ -199,6 +248,9 @@ static void mistakes_are_explained(void **state)
     c.frame = "1.,0.,0.,2.,0.,0.\n";
     assert_refused(&c, "do not span a plane");
     c.frame = "";
+    c.model = "*AIRBAG_LINEAR_FLUID\n1,1,%s1.E9,1000.\n";
+    assert_refused(&c, "RBID");
+    c.model = NULL;
     c.cards = "-1,1,1,0,0,0\n1.\n0.\n0.\n";
     VerifyRun run;
     int status;
@@ -210,10 +262,9 @@ static void mistakes_are_explained(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(levels_fire),
-        cmocka_unit_test(frame_is_local),
-        cmocka_unit_test(user_function_fires),
-        cmocka_unit_test(mistakes_are_explained),
+        cmocka_unit_test(levels_fire),         cmocka_unit_test(mixtures_wait),
+        cmocka_unit_test(inflator_waits),      cmocka_unit_test(frame_is_local),
+        cmocka_unit_test(user_function_fires), cmocka_unit_test(mistakes_are_explained),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
