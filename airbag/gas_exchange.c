@@ -4,6 +4,7 @@
 #include "airbag/gas_heat.h"
 #include "airbag/gas_inflow.h"
 #include "airbag/gas_ledger.h"
+#include "airbag/gas_pop.h"
 #include "airbag/gas_vent.h"
 
 static const double RESIDUAL = 1e-14; /* of (G18), relative to the mass */
@@ -18,15 +19,10 @@ typedef struct Discharge {
     GasExit exit;      /* the last flow that was not zero */
 } Discharge;
 
-void gas_check_pop(const GasModel *gas, GasState *state)
-{
-    if (state->opened > 0.0 || state->flat > 0.0) return;
-    if (state->pressure - gas->ambient_pressure >= gas->pop_pressure) state->opened = 1.0;
-}
-
-static void update_state_of_gas(const GasLaw *law, GasState *state)
+static void update_state_of_gas(GasLaw *law, GasState *state)
 {
     if (state->mass > 0.0) state->temperature = gas_temperature(law, state->mass, 0.0, state->energy);
+    law->near = state->temperature;
     state->density = state->mass / state->volume;
     state->pressure = state->density * law->r * state->temperature;
 }
@@ -103,16 +99,23 @@ static void count_outflow(GasState *state, double out, GasExit exit)
     state->mass_flow_out_porosity += out * (exit.porosity / flow);
 }
 
-/* Inflow with the exits closed. */
-static void exchange_closed(GasInflow inflow, GasState *state)
+/* Takes an outflow of the composition before and adds the inflow; what is left of the mixture is then in the state. */
+static void mix_species(const GasLaw *law, const GasInflow *inflow, double outflow, GasState *state)
 {
-    gas_book(&state->mass, &state->carry[CARRY_MASS], inflow.mass);
-    gas_book(&state->energy, &state->carry[CARRY_ENERGY], inflow.enthalpy);
+    for (int i = 0; i < law->count; i++) state->species[i] += inflow->species[i] - outflow * law->fraction[i];
 }
 
-/* (G17) to (G19). */
+/* Inflow with the exits closed. */
+static void exchange_closed(const GasLaw *law, const GasInflow *inflow, GasState *state)
+{
+    mix_species(law, inflow, 0.0, state);
+    gas_book(&state->mass, &state->carry[CARRY_MASS], inflow->mass);
+    gas_book(&state->energy, &state->carry[CARRY_ENERGY], inflow->enthalpy);
+}
+
+/* (G17) to (G19). A mixture's early outflow has the composition before, the late one that after the inflow. */
 static void exchange_open(const GasModel *gas, const GasLaw *law, const Curve *curves, double time, double span,
-                          GasInflow inflow, GasState *state)
+                          const GasInflow *inflow, GasState *state)
 {
     GasExit before = gas_exit_flow(gas, law, curves, time, state->pressure, state->temperature);
     double flow = before.vent + before.porosity, early = 0.0, weight = 1.0;
@@ -122,47 +125,66 @@ static void exchange_open(const GasModel *gas, const GasLaw *law, const Curve *c
         early = fmin(0.5 * span * flow, 0.5 * state->mass * gap / gas_gamma(law, state->temperature));
         weight = 1.0 - early / (span * flow);
     }
+    GasLaw mixed;
     Discharge discharge = {.gas = gas, .law = law, .curves = curves, .volume = state->volume};
-    discharge.mass = state->mass + inflow.mass - early;
-    discharge.energy = state->energy + inflow.enthalpy - early * gas_enthalpy(law, state->temperature);
+    discharge.mass = state->mass + inflow->mass - early;
+    discharge.energy = state->energy + inflow->enthalpy - early * gas_enthalpy(law, state->temperature);
     discharge.time = time + span;
     discharge.span = weight * span;
     if (!(discharge.mass > 0.0)) return;
+    if (law->count > 0) {
+        mixed = *law;
+        mix_species(law, inflow, early, state);
+        gas_law_mix(&mixed, state->species);
+        discharge.law = &mixed;
+    }
     double rest;
     if (!iterate_discharge(&discharge, flow, &rest)) rest = bracket_discharge(&discharge);
     double late = discharge.mass - rest;
     if (!(early > 0.0) && !(late > 0.0)) {
-        exchange_closed(inflow, state);
+        gas_book(&state->mass, &state->carry[CARRY_MASS], inflow->mass);
+        gas_book(&state->energy, &state->carry[CARRY_ENERGY], inflow->enthalpy);
         return;
     }
-    double temperature = gas_temperature(law, discharge.mass, late, discharge.energy);
-    double energy = rest * gas_internal_energy(law, temperature);
-    double mass_out = gas_settle(&state->mass, &state->carry[CARRY_MASS], inflow.mass, rest);
-    double enthalpy_out = gas_settle(&state->energy, &state->carry[CARRY_ENERGY], inflow.enthalpy, energy);
+    for (int i = 0; i < law->count; i++) state->species[i] *= rest / discharge.mass;
+    double temperature = gas_temperature(discharge.law, discharge.mass, late, discharge.energy);
+    double energy = rest * gas_internal_energy(discharge.law, temperature);
+    double mass_out = gas_settle(&state->mass, &state->carry[CARRY_MASS], inflow->mass, rest);
+    double enthalpy_out = gas_settle(&state->energy, &state->carry[CARRY_ENERGY], inflow->enthalpy, energy);
     gas_book(&state->mass_out, &state->carry[CARRY_MASS_OUT], mass_out);
     gas_book(&state->enthalpy_out, &state->carry[CARRY_ENTHALPY_OUT], enthalpy_out);
     count_outflow(state, early, before);
     count_outflow(state, late, discharge.exit);
 }
 
-void gas_exchange(const GasModel *gas, const GasLaw *law, const Curve *curves, double time, double span, double area,
-                  GasState *state)
+void gas_exchange_flow(const GasModel *gas, GasLaw *law, const Curve *curves, double time, double span,
+                       const GasInflow *inflow, GasState *state)
 {
-    gas_check_pop(gas, state);
-    gas_lose_heat(gas, law, curves, time, time + 0.5 * span, area, state);
-    update_state_of_gas(law, state);
-    GasTank tank = {state->tank_pressure, state->tank_temperature};
-    GasInflow inflow = gas_inflow(gas, law, curves, time, time + span, &tank);
-    state->tank_pressure = tank.pressure;
-    state->tank_temperature = tank.temperature;
     if (state->opened > 0.0) {
         exchange_open(gas, law, curves, time, span, inflow, state);
     } else {
-        exchange_closed(inflow, state);
+        exchange_closed(law, inflow, state);
     }
-    gas_book(&state->mass_in, &state->carry[CARRY_MASS_IN], inflow.mass);
-    gas_book(&state->enthalpy_in, &state->carry[CARRY_ENTHALPY_IN], inflow.enthalpy);
+    gas_law_mix(law, state->species);
+    gas_book(&state->mass_in, &state->carry[CARRY_MASS_IN], inflow->mass);
+    gas_book(&state->enthalpy_in, &state->carry[CARRY_ENTHALPY_IN], inflow->enthalpy);
     update_state_of_gas(law, state);
+}
+
+void gas_exchange(const GasModel *gas, GasLaw *law, const Curve *curves, double time, double span, double area,
+                  GasState *state)
+{
+    gas_check_pop(gas, time, state);
+    gas_lose_heat(gas, law, curves, time, time + 0.5 * span, area, state);
+    update_state_of_gas(law, state);
+    GasSupply supply = gas_supply_of(state);
+    double since = time - state->inflow_start;
+    GasInflow inflow = gas_inflow(gas, law, curves, since, time + span - state->inflow_start, &supply);
+    state->tank_pressure = supply.pressure;
+    state->tank_temperature = supply.temperature;
+    state->inflator_mass = supply.inflator_mass;
+    state->inflator_energy = supply.inflator_energy;
+    gas_exchange_flow(gas, law, curves, time, span, &inflow, state);
     gas_lose_heat(gas, law, curves, time + 0.5 * span, time + span, area, state);
     update_state_of_gas(law, state);
 }

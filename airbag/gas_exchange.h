@@ -2,16 +2,17 @@
 #ifndef BILLOW_GAS_EXCHANGE_H
 #define BILLOW_GAS_EXCHANGE_H
 
-#include "airbag/gas_law.h"
-
-/* Opens the exits for good once the gauge pressure reaches PPOP (not in a bag that is still flat). */
-void gas_check_pop(const GasModel *gas, GasState *state);
+#include "airbag/gas_inflow.h"
 
 /* In- and outflow and heat loss from time to time + span at volume state->volume and surface area; updates mass,
  * energy, temperature, pressure and the sums of the ledger, mass_flow_out_vent and mass_flow_out_porosity by the masses
  * that left. Mass and temperature stay positive, and a vented bag relaxes monotonically to the ambient pressure, for
- * any span. */
-void gas_exchange(const GasModel *gas, const GasLaw *law, const Curve *curves, double time, double span, double area,
+ * any span. The law of a mixture follows the composition. */
+void gas_exchange(const GasModel *gas, GasLaw *law, const Curve *curves, double time, double span, double area,
                   GasState *state);
+
+/* The exchange of gas alone, with an inflow that is known. */
+void gas_exchange_flow(const GasModel *gas, GasLaw *law, const Curve *curves, double time, double span,
+                       const GasInflow *inflow, GasState *state);
 
 #endif

@@ -31,8 +31,9 @@ void gas_lose_heat(const GasModel *gas, const GasLaw *law, const Curve *curves, 
     double dose = coefficient_integral(gas, curves, begin, end) * area;
     if (!(dose > 0.0) || !(state->mass > 0.0)) return;
     double ambient = gas_ambient_temperature(gas, law), before = state->temperature, after = before;
-    for (int i = 0; i < (law->c1 == 0.0 ? 1 : 3); i++) { /* cv is linear in T: its mean is that of the mean T */
-        double cv = law->c0 + 0.5 * law->c1 * (before + after);
+    bool constant = law->count == 0 && law->c1 == 0.0;
+    for (int i = 0; i < (constant ? 1 : 3); i++) { /* where cv is linear in T its mean is that of the mean T */
+        double cv = gas_cv(law, 0.5 * (before + after));
         after = ambient + (before - ambient) * elementary_exp(-dose / (state->mass * cv));
     }
     double heat = state->mass * (gas_internal_energy(law, before) - gas_internal_energy(law, after));

@@ -22,6 +22,12 @@ double gas_inflow_next_corner(const GasModel *gas, const Curve *curves, double t
     double corner = INFINITY;
     corner = next_corner_of(curves, gas->mass_flow_curve, time, corner);
     corner = next_corner_of(curves, gas->tank_pressure_curve, time, corner);
+    corner = next_corner_of(curves, gas->inflator.burn_curve, time, corner);
+    for (int i = 0; i < gas->species_count; i++) {
+        corner = next_corner_of(curves, gas->sources[i].mass_flow_curve, time, corner);
+        corner = next_corner_of(curves, gas->sources[i].temperature_curve, time, corner);
+        corner = next_corner_of(curves, gas->sources[i].mole_fraction_curve, time, corner);
+    }
     corner = next_corner_of(curves, gas->temperature_curve, time, corner);
     return next_corner_of(curves, gas->temperature_rate_curve, time, corner);
 }
@@ -46,7 +52,7 @@ static GasInflow curve_inflow(const GasModel *gas, const GasLaw *law, const Curv
 {
     const Curve *flow = &curves[gas->mass_flow_curve];
     double first = curve_value(flow, begin), last = curve_value(flow, end);
-    if (first <= 0.0 && last <= 0.0) return (GasInflow){0.0, 0.0};
+    if (first <= 0.0 && last <= 0.0) return (GasInflow){0};
     if (first < 0.0) {
         begin += (end - begin) * (first / (first - last));
         first = 0.0;
@@ -54,7 +60,7 @@ static GasInflow curve_inflow(const GasModel *gas, const GasLaw *law, const Curv
         end = begin + (end - begin) * (first / (first - last));
         last = 0.0;
     }
-    GasInflow inflow = {0.5 * (end - begin) * (first + last), 0.0};
+    GasInflow inflow = {.mass = 0.5 * (end - begin) * (first + last)};
     if (gas->temperature_curve < 0 && gas->temperature_rate_curve < 0) {
         inflow.enthalpy = inflow.mass * gas_enthalpy(law, gas->inflow_temperature);
     } else {
@@ -64,16 +70,22 @@ static GasInflow curve_inflow(const GasModel *gas, const GasLaw *law, const Curv
 }
 
 GasInflow gas_inflow(const GasModel *gas, const GasLaw *law, const Curve *curves, double begin, double end,
-                     GasTank *tank)
+                     GasSupply *supply)
 {
-    GasInflow total = {0.0, 0.0};
+    GasInflow total = {0};
+    begin = fmax(begin, 0.0);
     while (begin < end) {
         double stop = fmin(end, gas_inflow_next_corner(gas, curves, begin));
-        GasInflow piece = {0.0, 0.0};
-        if (gas->mass_flow_curve >= 0) {
+        GasInflow piece = {0};
+        if (gas->species_count > 0) {
+            piece = gas_mixture_inflow(gas, curves, begin, stop);
+            for (int i = 0; i < gas->species_count; i++) total.species[i] += piece.species[i];
+        } else if (gas->mass_flow_curve >= 0) {
             piece = curve_inflow(gas, law, curves, begin, stop);
+        } else if (gas->inflator.volume > 0.0) {
+            piece = gas_inflator_flow(gas, law, curves, begin, stop, supply);
         } else if (gas->tank_pressure_curve >= 0) {
-            piece = gas_tank_inflow(gas, law, curves, begin, stop, tank);
+            piece = gas_tank_inflow(gas, law, curves, begin, stop, supply);
         }
         total.mass += piece.mass;
         total.enthalpy += piece.enthalpy;

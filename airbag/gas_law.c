@@ -3,11 +3,21 @@
 
 #include "solver/elementary.h"
 
-GasLaw gas_law_of(const GasModel *gas)
+GasLaw gas_law_of(const GasModel *gas, const GasState *state)
 {
-    if (!gas->temperature_dependent) return (GasLaw){gas->cv, 0.0, gas->cp - gas->cv};
-    double r = gas->gas_constant / gas->molar_mass;
-    return (GasLaw){gas->a / gas->molar_mass - r, gas->b / gas->molar_mass, r};
+    GasLaw law = {.count = gas->species_count, .species = gas->species, .near = state->temperature};
+    if (law.count > 0) {
+        for (int i = 0; i < law.count; i++) law.fraction[i] = gas->sources[i].initial_fraction;
+        gas_law_mix(&law, state->mass > 0.0 ? state->species : law.fraction);
+    } else if (gas->temperature_dependent) {
+        law.r = gas->gas_constant / gas->molar_mass;
+        law.c0 = gas->a / gas->molar_mass - law.r;
+        law.c1 = gas->b / gas->molar_mass;
+    } else {
+        law.c0 = gas->cv;
+        law.r = gas->cp - gas->cv;
+    }
+    return law;
 }
 
 /* (G6): c0 y + c1 T (e^y - 1) + R ln ratio = 0 for y = ln(T1/T). Newton from the solution for constant cv; the function
@@ -29,6 +39,7 @@ static double solve_entropy(const GasLaw *law, double temperature, double ratio)
 
 double gas_isentropic_temperature(const GasLaw *law, double temperature, double ratio)
 {
+    if (law->count > 0) return gas_mixture_isentropic(law, temperature, ratio);
     if (law->c1 == 0.0) return temperature * elementary_pow(ratio, -law->r / law->c0);
     return solve_entropy(law, temperature, ratio);
 }

@@ -7,9 +7,9 @@ static double filled_from_vacuum(const GasLaw *law, double inflow_temperature)
     return gas_temperature(law, 1.0, 0.0, gas_enthalpy(law, inflow_temperature));
 }
 
-GasTank gas_tank_initial(const GasModel *gas, const GasLaw *law, const Curve *curves, double temperature)
+GasSupply gas_tank_initial(const GasModel *gas, const GasLaw *law, const Curve *curves, double temperature)
 {
-    GasTank tank = {gas->ambient_pressure, temperature};
+    GasSupply tank = {.pressure = gas->ambient_pressure, .temperature = temperature};
     if (tank.pressure <= 0.0) tank.temperature = filled_from_vacuum(law, gas_inflow_temperature(gas, curves, 0.0));
     return tank;
 }
@@ -24,11 +24,12 @@ static GasInflow inflow_constant(const GasModel *gas, const GasLaw *law, const C
     for (int i = 0; i < 3; i++) {
         double time = begin + 0.5 * (end - begin) * (1.0 + place[i]);
         double temperature = gas_inflow_temperature(gas, curves, time);
-        if (!(temperature > 0.0)) return (GasInflow){0.0, 0.0};
+        if (!(temperature > 0.0)) return (GasInflow){0};
         inverse += weight[i] / temperature;
     }
     double share = law->c0 / (law->c0 + law->r); /* 1/gamma */
-    return (GasInflow){gas->tank_volume * rise * share / law->r * inverse, gas->tank_volume * rise * law->c0 / law->r};
+    return (GasInflow){.mass = gas->tank_volume * rise * share / law->r * inverse,
+                       .enthalpy = gas->tank_volume * rise * law->c0 / law->r};
 }
 
 /* (G11): d ln T / d ln p of the tank's gas while it is filled. */
@@ -54,7 +55,7 @@ static double tank_step(const GasLaw *law, const double enthalpy[3], double pres
 }
 
 static double fill_tank(const GasModel *gas, const GasLaw *law, const Curve *curves, double begin, double end,
-                        double rise, const GasTank *tank)
+                        double rise, const GasSupply *tank)
 {
     if (tank->pressure <= 0.0) return filled_from_vacuum(law, gas_inflow_temperature(gas, curves, begin));
     int count = (int)fmin(1.0 + rise / (0.1 * tank->pressure), 200.0);
@@ -71,25 +72,25 @@ static double fill_tank(const GasModel *gas, const GasLaw *law, const Curve *cur
 }
 
 GasInflow gas_tank_inflow(const GasModel *gas, const GasLaw *law, const Curve *curves, double begin, double end,
-                          GasTank *tank)
+                          GasSupply *tank)
 {
     const Curve *curve = &curves[gas->tank_pressure_curve];
     double rise = curve_value(curve, end) - curve_value(curve, begin);
     if (law->c1 == 0.0) {
-        if (rise <= 0.0) return (GasInflow){0.0, 0.0};
+        if (rise <= 0.0) return (GasInflow){0};
         return inflow_constant(gas, law, curves, begin, end, rise);
     }
-    GasTank before = *tank;
+    GasSupply before = *tank;
     tank->pressure = fmax(before.pressure + rise, 0.0);
     if (rise <= 0.0) { /* the tank cools: its mass stays */
         if (before.pressure > 0.0) tank->temperature = before.temperature * (tank->pressure / before.pressure);
-        return (GasInflow){0.0, 0.0};
+        return (GasInflow){0};
     }
     tank->temperature = fill_tank(gas, law, curves, begin, end, rise, &before);
     double density_before = before.pressure > 0.0 ? before.pressure / before.temperature : 0.0; /* times R */
     double density = tank->pressure / tank->temperature;
     double energy_before = density_before * gas_internal_energy(law, before.temperature);
     double energy = density * gas_internal_energy(law, tank->temperature);
-    return (GasInflow){gas->tank_volume * (density - density_before) / law->r,
-                       gas->tank_volume * (energy - energy_before) / law->r}; /* (G12) */
+    return (GasInflow){.mass = gas->tank_volume * (density - density_before) / law->r,
+                       .enthalpy = gas->tank_volume * (energy - energy_before) / law->r}; /* (G12) */
 }

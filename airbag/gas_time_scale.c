@@ -1,10 +1,10 @@
-/* The step that resolves a gas without elements around it. */
+/* The step that resolves an ideal gas without elements around it. */
+#include "airbag/chamber.h"
 #include "airbag/gas_exchange.h"
 #include "airbag/gas_heat.h"
 #include "airbag/gas_inflow.h"
 #include "airbag/gas_vent.h"
 
-static const double NO_SCALE = 1e20;    /* nothing happens: any step will do */
 static const double MASS_SHARE = 0.01;  /* of the gas that may flow in or out in a step */
 static const double GAP_SHARE = 0.05;   /* of the way to the ambient pressure */
 static const double GAP_LEAST = 1e-3;   /* of the pressure: nearer, the way no longer counts */
@@ -18,9 +18,9 @@ static double corner_after(const Curve *curves, int curve, double time, double m
     return fmin(nearest, curve_next_corner(&curves[curve], time + margin));
 }
 
-static double next_corner(const GasModel *gas, const Curve *curves, double time, double margin)
+static double next_corner(const GasModel *gas, const Curve *curves, double start, double time, double margin)
 {
-    double corner = gas_inflow_next_corner(gas, curves, time + margin);
+    double corner = start < INFINITY ? start + gas_inflow_next_corner(gas, curves, time - start + margin) : INFINITY;
     corner = corner_after(curves, gas->vent_coefficient_time_curve, time, margin, corner);
     corner = corner_after(curves, gas->porosity_coefficient_time_curve, time, margin, corner);
     return corner_after(curves, gas->heat_transfer_curve, time, margin, corner);
@@ -32,8 +32,9 @@ static double fill_scale(const GasModel *gas, const GasLaw *law, const Curve *cu
                          double time, double horizon)
 {
     for (int i = 0; i < 100; i++) {
-        GasTank tank = {state->tank_pressure, state->tank_temperature};
-        GasInflow inflow = gas_inflow(gas, law, curves, time, time + horizon, &tank);
+        GasSupply supply = gas_supply_of(state);
+        GasInflow inflow =
+            gas_inflow(gas, law, curves, time - state->inflow_start, time - state->inflow_start + horizon, &supply);
         if (!(inflow.mass > 0.0)) return horizon;
         if (!(state->mass > 0.0)) return EMPTY_SHARE * horizon;
         double share = fmax(inflow.mass / state->mass, inflow.enthalpy / state->energy);
@@ -46,25 +47,26 @@ static double fill_scale(const GasModel *gas, const GasLaw *law, const Curve *cu
 static double exit_scale(const GasModel *gas, const GasLaw *law, const Curve *curves, const GasState *state,
                          double time)
 {
-    if (!(state->opened > 0.0)) return NO_SCALE;
+    if (!(state->opened > 0.0)) return CHAMBER_NO_SCALE;
     GasExit exit = gas_exit_flow(gas, law, curves, time, state->pressure, state->temperature);
     double flow = exit.vent + exit.porosity;
-    if (!(flow > 0.0)) return NO_SCALE;
+    if (gas->hole_count + gas->leak_count > 0) flow = fmax(flow, state->mass_flow_out); /* as far as it is known */
+    if (!(flow > 0.0)) return CHAMBER_NO_SCALE;
     double gap = fmax((state->pressure - gas->ambient_pressure) / state->pressure, GAP_LEAST);
     return fmin(MASS_SHARE, GAP_SHARE * gap) * state->mass / flow;
 }
 
-double gas_time_scale(const GasModel *gas, const Curve *curves, const GasState *state, double time)
+double ideal_gas_time_scale(const GasModel *gas, const Curve *curves, const GasState *state, double time)
 {
-    GasLaw law = gas_law_of(gas);
+    GasLaw law = gas_law_of(gas, state);
     double scale = exit_scale(gas, &law, curves, state, time);
     double coefficient = gas_heat_coefficient(gas, curves, time);
     if (coefficient > 0.0 && state->mass > 0.0 && state->area > 0.0) {
-        double cv = law.c0 + law.c1 * state->temperature;
+        double cv = gas_cv(&law, state->temperature);
         scale = fmin(scale, HEAT_SHARE * state->mass * cv / (coefficient * state->area));
     }
     double margin = 1e-9 * fabs(time); /* the inflow is integrated exactly over a corner that is passed */
-    double corner = next_corner(gas, curves, time, margin);
-    double horizon = fmin(scale, fmin(corner - time, NO_SCALE));
+    double corner = next_corner(gas, curves, state->inflow_start, time, margin);
+    double horizon = fmin(scale, fmin(corner - time, CHAMBER_NO_SCALE));
     return fill_scale(gas, &law, curves, state, time, horizon);
 }

@@ -92,6 +92,27 @@ static uint64_t hash_bags(uint64_t hash, const Model *model)
         hash = hash_int(hash, bag->id);
         hash = hash_int(hash, gas->kind);
         hash = hash_bytes(hash, constants, sizeof constants);
+        for (int k = 0; k < gas->species_count; k++) {
+            hash = hash_double(hash, gas->species[k].molar_mass);
+            hash = hash_bytes(hash, gas->species[k].piece[0].cp, sizeof gas->species[k].piece[0].cp);
+            hash = hash_double(hash, gas->sources[k].initial_fraction);
+        }
+        const double laws[] = {gas->pressure_volume.coefficient,
+                               gas->pressure_volume.factor,
+                               gas->adiabatic.gamma,
+                               gas->adiabatic.factor,
+                               gas->load_curve.start_time,
+                               gas->fluid.bulk,
+                               gas->overpressure,
+                               gas->density};
+        hash = hash_bytes(hash, laws, sizeof laws);
+        for (int k = 0; k < gas->leak_count; k++) {
+            const GasLeak *leak = &gas->leaks[k];
+            const double factors[] = {leak->coefficient, leak->factor, leak->open, leak->x[0], leak->x[1]};
+            hash = hash_bytes(hash, factors, sizeof factors);
+            hash = hash_int(hash, leak->option);
+        }
+        hash = hash_int(hash, gas->hole_count);
         hash = hash_int(hash, bag->node_count);
         hash = hash_int(hash, bag->closure.cap_count);
     }
@@ -106,6 +127,13 @@ static uint64_t hash_conditions(uint64_t hash, const Model *model)
         hash = hash_int(hash, curve->count);
         hash = hash_bytes(hash, curve->x, (size_t)curve->count * sizeof *curve->x);
         hash = hash_bytes(hash, curve->y, (size_t)curve->count * sizeof *curve->y);
+    }
+    for (int i = 0; i < model->connection_count; i++) {
+        const GasConnection *c = &model->connections[i];
+        hash = hash_int(hash, c->bag[0]);
+        hash = hash_int(hash, c->bag[1]);
+        hash = hash_double(hash, c->area);
+        hash = hash_double(hash, c->coefficient);
     }
     hash = hash_int(hash, model->segment_load_count);
     hash = hash_int(hash, model->loads.node_load_count);

@@ -1,391 +1,344 @@
-/* Arithmetic expressions: a recursive-descent evaluator with bounded depth. */
+/* The grammar of expressions: recursive descent with bounded depth. */
 #include "io/expression.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
+#include "io/expression_parser.h"
+#include "io/function_code.h"
 #include "io/number.h"
 
 enum {
-    DEEPEST = 100, /* nesting of parentheses, signs and powers */
-    MOST_ARGUMENTS = 16,
+    DEEPEST = 100,      /* nesting of parentheses, signs and powers */
     LONGEST_QUOTE = 20, /* characters of the text quoted in messages */
 };
 
-static const double largest_integer = 9007199254740992.0; /* 2^53 */
-
-typedef struct Evaluator {
-    const char *text;
-    size_t length, at;
-    int depth;
-    bool truncated; /* an integer division had a remainder */
-    ExpressionLookup *lookup;
-    const void *context;
-    char *message;
-    size_t message_length;
-} Evaluator;
-
-static int evaluate_sum(Evaluator *e, ExpressionValue *value);
-
-/* Reports what is wrong at the current place; always -1. */
-static int fail_at(Evaluator *e, const char *what)
+int expression_fail(ExpressionParser *p, const char *what)
 {
-    size_t left = e->length - e->at;
+    size_t left = p->length - p->at;
     int quoted = left < LONGEST_QUOTE ? (int)left : LONGEST_QUOTE;
+    for (int i = 0; i < quoted; i++)
+        if (p->text[p->at + (size_t)i] == '\n') quoted = i;
     if (left == 0) {
-        snprintf(e->message, e->message_length, "%s at its end", what);
+        snprintf(p->message, p->message_length, "%s at its end", what);
     } else {
-        snprintf(e->message, e->message_length, "%s at '%.*s'", what, quoted, e->text + e->at);
+        snprintf(p->message, p->message_length, "%s at '%.*s'", what, quoted, p->text + p->at);
     }
     return -1;
 }
 
-static char peek(Evaluator *e)
+char expression_peek(ExpressionParser *p)
 {
-    while (e->at < e->length && (e->text[e->at] == ' ' || e->text[e->at] == '\t')) e->at++;
-    return e->at < e->length ? e->text[e->at] : '\0';
+    while (p->at < p->length) {
+        char c = p->text[p->at];
+        if (c != ' ' && c != '\t' && (c != '\n' || p->line_ends)) return c;
+        p->at++;
+    }
+    return '\0';
 }
 
-static bool is_digit(char c)
+bool expression_is_digit(char c)
 {
     return c >= '0' && c <= '9';
 }
 
-static bool is_letter(char c)
+bool expression_is_letter(char c)
 {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
-/* Keeps integers exact: what is too large becomes an error, not a rounded integer. */
-static int set_value(Evaluator *e, double number, bool is_integer, ExpressionValue *value)
+bool expression_take(ExpressionParser *p, const char *characters)
 {
-    if (!isfinite(number)) return fail_at(e, "a value that is not a finite number");
-    if (is_integer && fabs(number) > largest_integer) return fail_at(e, "an integer beyond 2^53");
-    *value = (ExpressionValue){.value = number, .is_integer = is_integer};
-    return 0;
+    size_t count = strlen(characters);
+    expression_peek(p);
+    if (p->length - p->at < count || strncasecmp(p->text + p->at, characters, count) != 0) return false;
+    p->at += count;
+    return true;
 }
 
-static int evaluate_number(Evaluator *e, ExpressionValue *value)
+bool expression_take_word(ExpressionParser *p, const char *word)
 {
-    size_t start = e->at;
+    size_t start = p->at;
+    if (!expression_take(p, word)) return false;
+    char next = p->at < p->length ? p->text[p->at] : ' ';
+    if (!expression_is_letter(next) && !expression_is_digit(next)) return true;
+    p->at = start;
+    return false;
+}
+
+/* Whether the point at p->at begins an operator like .eq. and so ends the number before it. */
+static bool at_dotted_operator(const ExpressionParser *p)
+{
+    size_t end = p->at + 1;
+    while (end < p->length && expression_is_letter(p->text[end])) end++;
+    return p->code && end > p->at + 1 && end < p->length && p->text[end] == '.';
+}
+
+static int parse_number(ExpressionParser *p, ExpressionValue *value)
+{
+    size_t start = p->at;
     bool is_integer = true;
-    while (e->at < e->length && (is_digit(e->text[e->at]) || e->text[e->at] == '.')) {
-        if (e->text[e->at] == '.') is_integer = false;
-        e->at++;
+    while (p->at < p->length && (expression_is_digit(p->text[p->at]) || p->text[p->at] == '.')) {
+        if (p->text[p->at] == '.' && at_dotted_operator(p)) break;
+        if (p->text[p->at] == '.') is_integer = false;
+        p->at++;
     }
     /* Only a letter starts an exponent here: 1.5-3 is a difference. */
-    char letter = e->at < e->length ? e->text[e->at] : ' ';
+    char letter = p->at < p->length ? p->text[p->at] : ' ';
     if (letter == 'e' || letter == 'E' || letter == 'd' || letter == 'D') {
-        size_t after = e->at + 1;
-        if (after < e->length && (e->text[after] == '+' || e->text[after] == '-')) after++;
-        if (after < e->length && is_digit(e->text[after])) {
-            while (after < e->length && is_digit(e->text[after])) after++;
-            e->at = after;
+        size_t after = p->at + 1;
+        if (after < p->length && (p->text[after] == '+' || p->text[after] == '-')) after++;
+        if (after < p->length && expression_is_digit(p->text[after])) {
+            while (after < p->length && expression_is_digit(p->text[after])) after++;
+            p->at = after;
             is_integer = false;
         }
     }
     double number = 0;
-    if (number_parse(e->text + start, e->at - start, &number) != NUMBER_FINE) {
-        e->at = start;
-        return fail_at(e, "a malformed number");
+    if (number_parse(p->text + start, p->at - start, &number) != NUMBER_FINE) {
+        p->at = start;
+        return expression_fail(p, "a malformed number");
     }
-    return set_value(e, number, is_integer, value);
+    if (p->code && p->at < p->length && (p->text[p->at] == 'f' || p->text[p->at] == 'F')) p->at++; /* C's 1.5f */
+    return expression_apply_number(p, number, is_integer, value);
 }
 
-typedef enum Function {
-    FUNCTION_SIN,
-    FUNCTION_COS,
-    FUNCTION_TAN,
-    FUNCTION_CSC,
-    FUNCTION_SEC,
-    FUNCTION_CTN,
-    FUNCTION_ASIN,
-    FUNCTION_ACOS,
-    FUNCTION_ATAN,
-    FUNCTION_SINH,
-    FUNCTION_COSH,
-    FUNCTION_TANH,
-    FUNCTION_ASINH,
-    FUNCTION_ACOSH,
-    FUNCTION_ATANH,
-    FUNCTION_EXP,
-    FUNCTION_LOG,
-    FUNCTION_LOG10,
-    FUNCTION_SQRT,
-    FUNCTION_FLOAT,
-    FUNCTION_ABS,
-    FUNCTION_INT,
-    FUNCTION_AINT,
-    FUNCTION_NINT,
-    FUNCTION_ANINT,
-    FUNCTION_ATAN2,
-    FUNCTION_MOD,
-    FUNCTION_SIGN,
-    FUNCTION_MIN,
-    FUNCTION_MAX
-} Function;
-
-static const struct FunctionName {
-    const char *name;
-    Function function;
-    int least, most; /* arguments */
-} function_names[] = {
-    {"sin", FUNCTION_SIN, 1, 1},
-    {"cos", FUNCTION_COS, 1, 1},
-    {"tan", FUNCTION_TAN, 1, 1},
-    {"csc", FUNCTION_CSC, 1, 1},
-    {"sec", FUNCTION_SEC, 1, 1},
-    {"ctn", FUNCTION_CTN, 1, 1},
-    {"asin", FUNCTION_ASIN, 1, 1},
-    {"acos", FUNCTION_ACOS, 1, 1},
-    {"atan", FUNCTION_ATAN, 1, 1},
-    {"sinh", FUNCTION_SINH, 1, 1},
-    {"cosh", FUNCTION_COSH, 1, 1},
-    {"tanh", FUNCTION_TANH, 1, 1},
-    {"asinh", FUNCTION_ASINH, 1, 1},
-    {"acosh", FUNCTION_ACOSH, 1, 1},
-    {"atanh", FUNCTION_ATANH, 1, 1},
-    {"exp", FUNCTION_EXP, 1, 1},
-    {"log", FUNCTION_LOG, 1, 1},
-    {"ln", FUNCTION_LOG, 1, 1},
-    {"log10", FUNCTION_LOG10, 1, 1},
-    {"sqrt", FUNCTION_SQRT, 1, 1},
-    {"float", FUNCTION_FLOAT, 1, 1},
-    {"real", FUNCTION_FLOAT, 1, 1},
-    {"ls_real", FUNCTION_FLOAT, 1, 1},
-    {"ls_integer", FUNCTION_INT, 1, 1},
-    {"abs", FUNCTION_ABS, 1, 1},
-    {"int", FUNCTION_INT, 1, 1},
-    {"aint", FUNCTION_AINT, 1, 1},
-    {"nint", FUNCTION_NINT, 1, 1},
-    {"anint", FUNCTION_ANINT, 1, 1},
-    {"atan2", FUNCTION_ATAN2, 2, 2},
-    {"mod", FUNCTION_MOD, 2, 2},
-    {"sign", FUNCTION_SIGN, 2, 2},
-    {"min", FUNCTION_MIN, 1, MOST_ARGUMENTS},
-    {"max", FUNCTION_MAX, 1, MOST_ARGUMENTS},
-};
-
-static double apply_real_function(Function function, double x, double y)
+/* The arguments and the value of a function, p->at on the opening parenthesis. */
+static int parse_call(ExpressionParser *p, int builtin, ExpressionValue *value)
 {
-    switch (function) {
-    case FUNCTION_SIN:
-        return sin(x);
-    case FUNCTION_COS:
-        return cos(x);
-    case FUNCTION_TAN:
-        return tan(x);
-    case FUNCTION_CSC:
-        return 1 / sin(x);
-    case FUNCTION_SEC:
-        return 1 / cos(x);
-    case FUNCTION_CTN:
-        return 1 / tan(x);
-    case FUNCTION_ASIN:
-        return asin(x);
-    case FUNCTION_ACOS:
-        return acos(x);
-    case FUNCTION_ATAN:
-        return atan(x);
-    case FUNCTION_SINH:
-        return sinh(x);
-    case FUNCTION_COSH:
-        return cosh(x);
-    case FUNCTION_TANH:
-        return tanh(x);
-    case FUNCTION_ASINH:
-        return asinh(x);
-    case FUNCTION_ACOSH:
-        return acosh(x);
-    case FUNCTION_ATANH:
-        return atanh(x);
-    case FUNCTION_EXP:
-        return exp(x);
-    case FUNCTION_LOG:
-        return log(x);
-    case FUNCTION_LOG10:
-        return log10(x);
-    case FUNCTION_SQRT:
-        return sqrt(x);
-    case FUNCTION_ABS:
-        return fabs(x);
-    case FUNCTION_INT:
-    case FUNCTION_AINT:
-        return trunc(x);
-    case FUNCTION_NINT:
-    case FUNCTION_ANINT:
-        return round(x);
-    case FUNCTION_ATAN2:
-        return atan2(x, y);
-    case FUNCTION_MOD:
-        return fmod(x, y);
-    case FUNCTION_SIGN:
-        return copysign(fabs(x), y == 0 ? 1.0 : y);
-    default:
-        return x;
-    }
-}
-
-static int apply_function(Evaluator *e, Function function, const ExpressionValue *arguments, int count,
-                          ExpressionValue *value)
-{
-    bool integers = true;
-    for (int i = 0; i < count; i++) integers = integers && arguments[i].is_integer;
-    double result = arguments[0].value;
-    if (function == FUNCTION_MIN || function == FUNCTION_MAX) {
-        for (int i = 1; i < count; i++) {
-            double other = arguments[i].value;
-            if (function == FUNCTION_MIN ? other < result : other > result) result = other;
-        }
-        return set_value(e, result, integers, value);
-    }
-    result = apply_real_function(function, result, count > 1 ? arguments[1].value : 0);
-    bool keeps_type = function == FUNCTION_ABS || function == FUNCTION_MOD || function == FUNCTION_SIGN;
-    bool makes_integer = function == FUNCTION_INT || function == FUNCTION_NINT;
-    return set_value(e, result, makes_integer || (keeps_type && integers), value);
-}
-
-/* The function named text[0 .. length), in any case; NULL if there is none. */
-static const struct FunctionName *find_function(const char *text, size_t length)
-{
-    for (size_t i = 0; i < sizeof function_names / sizeof *function_names; i++) {
-        const char *name = function_names[i].name;
-        if (strlen(name) == length && strncasecmp(name, text, length) == 0) return &function_names[i];
-    }
-    return NULL;
-}
-
-/* The arguments and the value of a function, e->at on the opening parenthesis. */
-static int evaluate_call(Evaluator *e, const struct FunctionName *entry, ExpressionValue *value)
-{
-    ExpressionValue arguments[MOST_ARGUMENTS];
+    const FunctionBuiltin *entry = function_builtin(builtin);
+    ExpressionValue arguments[BILLOW_MOST_ARGUMENTS];
     int count = 0;
     do {
-        e->at++;
-        if (count == entry->most) return fail_at(e, "too many arguments of a function");
-        if (evaluate_sum(e, &arguments[count])) return -1;
+        p->at++;
+        if (count == entry->most) return expression_fail(p, "too many arguments of a function");
+        if (expression_parse(p, &arguments[count])) return -1;
         count++;
-    } while (peek(e) == ',');
-    if (peek(e) != ')') return fail_at(e, "a missing ')'");
-    if (count < entry->least) return fail_at(e, "too few arguments of a function");
-    e->at++;
-    return apply_function(e, entry->function, arguments, count, value);
+    } while (expression_peek(p) == ',');
+    if (expression_peek(p) != ')') return expression_fail(p, "a missing ')'");
+    if (count < entry->least) return expression_fail(p, "too few arguments of a function");
+    p->at++;
+    return expression_apply_builtin(p, builtin, arguments, count, value);
 }
 
-static int evaluate_name(Evaluator *e, ExpressionValue *value)
+static int parse_parameter(ExpressionParser *p, const char *name, size_t length, ExpressionValue *value)
 {
-    bool marked = e->text[e->at] == '&';
-    if (marked) e->at++;
-    size_t start = e->at;
-    while (e->at < e->length && (is_letter(e->text[e->at]) || is_digit(e->text[e->at]))) e->at++;
-    const char *name = e->text + start;
-    size_t length = e->at - start;
-    if (length == 0) return fail_at(e, "a parameter's name missing");
-    if (!marked && peek(e) == '(') {
-        const struct FunctionName *entry = find_function(name, length);
-        if (entry) return evaluate_call(e, entry, value);
-        e->at = start;
-        return fail_at(e, "an unknown function");
+    if (p->lookup(p->context, name, length, value, p->message, p->message_length)) return -1;
+    return p->code ? expression_apply_number(p, value->value, value->is_integer, value) : 0;
+}
+
+static int parse_name(ExpressionParser *p, ExpressionValue *value)
+{
+    bool marked = p->text[p->at] == '&';
+    if (marked) p->at++;
+    size_t start = p->at;
+    while (p->at < p->length && (expression_is_letter(p->text[p->at]) || expression_is_digit(p->text[p->at]))) p->at++;
+    const char *name = p->text + start;
+    size_t length = p->at - start;
+    if (length == 0) return expression_fail(p, "a parameter's name missing");
+    if (!marked && p->code) {
+        int status = function_code_name(p->code, p, name, length, value);
+        if (status <= 0) return status;
     }
-    if (e->lookup && e->lookup(e->context, name, length, value, e->message, e->message_length) == 0) return 0;
+    if (!marked && expression_peek(p) == '(') {
+        int builtin = function_builtin_find(name, length);
+        if (builtin >= 0 && (p->code || function_builtin(builtin)->scope == BUILTIN_EVERYWHERE))
+            return parse_call(p, builtin, value);
+        p->at = start;
+        return expression_fail(p, "an unknown function");
+    }
+    if (p->lookup && (marked || !p->code)) {
+        if (parse_parameter(p, name, length, value) == 0) return 0;
+        if (marked || length != 2 || strncasecmp(name, "pi", 2) != 0) return -1;
+    }
     if (!marked && length == 2 && strncasecmp(name, "pi", 2) == 0) {
-        return set_value(e, 3.14159265358979323846, false, value);
+        bool all_real = p->all_real;
+        p->all_real = true;
+        int status = expression_apply_number(p, 3.14159265358979323846, false, value);
+        p->all_real = all_real;
+        return status;
     }
-    if (e->lookup) return -1;
-    e->at = start;
-    return fail_at(e, "an unknown name");
+    p->at = start;
+    return expression_fail(p, "an unknown name");
 }
 
-static int evaluate_primary(Evaluator *e, ExpressionValue *value)
+/* (int) or (float) before a factor, as C casts. */
+static bool take_cast(ExpressionParser *p, bool *to_integer)
 {
-    char c = peek(e);
-    if (c == '(') {
-        e->at++;
-        if (evaluate_sum(e, value)) return -1;
-        if (peek(e) != ')') return fail_at(e, "a missing ')'");
-        e->at++;
+    size_t start = p->at;
+    if (p->code && expression_take(p, "(")) {
+        *to_integer = expression_take_word(p, "int");
+        if ((*to_integer || expression_take_word(p, "float") || expression_take_word(p, "double")) &&
+            expression_take(p, ")"))
+            return true;
+    }
+    p->at = start;
+    return false;
+}
+
+static int parse_factor(ExpressionParser *p, ExpressionValue *value);
+
+static int parse_primary(ExpressionParser *p, ExpressionValue *value)
+{
+    char c = expression_peek(p);
+    bool to_integer = false;
+    if (take_cast(p, &to_integer)) {
+        if (parse_factor(p, value)) return -1;
+        if (to_integer) return expression_apply_unary(p, OPERATION_TRUNCATE, value);
+        value->is_integer = false;
         return 0;
     }
-    if (is_digit(c) || c == '.') return evaluate_number(e, value);
-    if (is_letter(c) || c == '&') return evaluate_name(e, value);
-    return fail_at(e, "a missing number, name or '('");
+    if (c == '(') {
+        p->at++;
+        if (expression_parse(p, value)) return -1;
+        if (expression_peek(p) != ')') return expression_fail(p, "a missing ')'");
+        p->at++;
+        return 0;
+    }
+    if (expression_is_digit(c) || c == '.') return parse_number(p, value);
+    if (expression_is_letter(c) || c == '&') return parse_name(p, value);
+    return expression_fail(p, "a missing number, name or '('");
 }
 
-/* base ** exponent: an integer only if both are and the exponent is not negative; Fortran's 2 ** (-1) = 0 helps nobody.
- */
-static int apply_power(Evaluator *e, ExpressionValue base, ExpressionValue exponent, ExpressionValue *value)
+/* A sign binds weaker than a power: -2**2 is -4, and 2**-1 is allowed. C's ! binds like a sign. */
+static int parse_factor(ExpressionParser *p, ExpressionValue *value)
 {
-    bool integers = base.is_integer && exponent.is_integer && exponent.value >= 0;
-    return set_value(e, pow(base.value, exponent.value), integers, value);
-}
-
-/* A sign binds weaker than a power: -2**2 is -4, and 2**-1 is allowed. */
-static int evaluate_factor(Evaluator *e, ExpressionValue *value)
-{
-    if (++e->depth > DEEPEST) return fail_at(e, "more than 100 levels of nesting");
+    if (++p->depth > DEEPEST) return expression_fail(p, "more than 100 levels of nesting");
     int status;
-    char c = peek(e);
-    if (c == '-' || c == '+') {
-        e->at++;
-        status = evaluate_factor(e, value);
-        if (status == 0 && c == '-') value->value = -value->value;
+    char c = expression_peek(p);
+    if (c == '-' || c == '+' || (p->code && c == '!')) {
+        p->at++;
+        status = parse_factor(p, value);
+        if (status == 0 && c != '+')
+            status = expression_apply_unary(p, c == '-' ? OPERATION_NEGATE : OPERATION_NOT, value);
     } else {
-        status = evaluate_primary(e, value);
-        c = status == 0 ? peek(e) : '\0';
-        bool stars = c == '*' && e->at + 1 < e->length && e->text[e->at + 1] == '*';
+        status = parse_primary(p, value);
+        c = status == 0 ? expression_peek(p) : '\0';
+        bool stars = c == '*' && p->at + 1 < p->length && p->text[p->at + 1] == '*';
         if (c == '^' || stars) {
-            e->at += stars ? 2 : 1;
+            p->at += stars ? 2 : 1;
             ExpressionValue exponent;
-            status = evaluate_factor(e, &exponent);
-            if (status == 0) status = apply_power(e, *value, exponent, value);
+            status = parse_factor(p, &exponent);
+            if (status == 0) status = expression_apply_binary(p, OPERATION_POWER, value, exponent);
         }
     }
-    e->depth--;
+    p->depth--;
     return status;
 }
 
-static int evaluate_product(Evaluator *e, ExpressionValue *value)
+static int parse_product(ExpressionParser *p, ExpressionValue *value)
 {
-    if (evaluate_factor(e, value)) return -1;
-    for (char c = peek(e); c == '*' || c == '/'; c = peek(e)) {
-        e->at++;
+    if (parse_factor(p, value)) return -1;
+    for (char c = expression_peek(p); c == '*' || c == '/' || (p->code && c == '%'); c = expression_peek(p)) {
+        if (p->code && p->at + 1 < p->length && p->text[p->at + 1] == '=') return 0; /* Fortran's /= */
+        p->at++;
         ExpressionValue right;
-        if (evaluate_factor(e, &right)) return -1;
-        bool integers = value->is_integer && right.is_integer;
-        if (c == '/' && right.value == 0) return fail_at(e, "a division by zero");
-        double result = c == '*' ? value->value * right.value : value->value / right.value;
-        if (integers && result != trunc(result)) e->truncated = true;
-        if (set_value(e, integers ? trunc(result) : result, integers, value)) return -1;
+        if (parse_factor(p, &right)) return -1;
+        ExpressionValue pair[2] = {*value, right};
+        int status = c == '%'
+                         ? expression_apply_builtin(p, function_builtin_find("mod", 3), pair, 2, value)
+                         : expression_apply_binary(p, c == '*' ? OPERATION_MULTIPLY : OPERATION_DIVIDE, value, right);
+        if (status) return -1;
     }
     return 0;
 }
 
-static int evaluate_sum(Evaluator *e, ExpressionValue *value)
+static int parse_sum(ExpressionParser *p, ExpressionValue *value)
 {
-    if (evaluate_product(e, value)) return -1;
-    for (char c = peek(e); c == '+' || c == '-'; c = peek(e)) {
-        e->at++;
+    if (parse_product(p, value)) return -1;
+    for (char c = expression_peek(p); c == '+' || c == '-'; c = expression_peek(p)) {
+        p->at++;
         ExpressionValue right;
-        if (evaluate_product(e, &right)) return -1;
-        double result = c == '+' ? value->value + right.value : value->value - right.value;
-        if (set_value(e, result, value->is_integer && right.is_integer, value)) return -1;
+        if (parse_product(p, &right)) return -1;
+        if (expression_apply_binary(p, c == '+' ? OPERATION_ADD : OPERATION_SUBTRACT, value, right)) return -1;
     }
     return 0;
+}
+
+/* The comparison that comes next, taken; -1 if there is none. */
+static int take_comparison(ExpressionParser *p)
+{
+    static const struct {
+        const char *spelling;
+        FunctionOperation operation;
+    } comparisons[] = {
+        {"<=", OPERATION_LESS_EQUAL}, {">=", OPERATION_GREATER_EQUAL}, {"==", OPERATION_EQUAL},
+        {"!=", OPERATION_NOT_EQUAL},  {"/=", OPERATION_NOT_EQUAL},     {"<", OPERATION_LESS},
+        {">", OPERATION_GREATER},     {".le.", OPERATION_LESS_EQUAL},  {".ge.", OPERATION_GREATER_EQUAL},
+        {".eq.", OPERATION_EQUAL},    {".ne.", OPERATION_NOT_EQUAL},   {".lt.", OPERATION_LESS},
+        {".gt.", OPERATION_GREATER},
+    };
+    for (size_t i = 0; i < sizeof comparisons / sizeof *comparisons; i++)
+        if (expression_take(p, comparisons[i].spelling)) return (int)comparisons[i].operation;
+    return -1;
+}
+
+/* A comparison, or Fortran's .not. of one. */
+static int parse_comparison(ExpressionParser *p, ExpressionValue *value)
+{
+    if (expression_take(p, ".not.")) {
+        if (++p->depth > DEEPEST) return expression_fail(p, "more than 100 levels of nesting");
+        int status = parse_comparison(p, value);
+        p->depth--;
+        return status ? -1 : expression_apply_unary(p, OPERATION_NOT, value);
+    }
+    if (parse_sum(p, value)) return -1;
+    for (int operation = take_comparison(p); operation >= 0; operation = take_comparison(p)) {
+        ExpressionValue right;
+        if (parse_sum(p, &right)) return -1;
+        if (expression_apply_binary(p, (FunctionOperation)operation, value, right)) return -1;
+    }
+    return 0;
+}
+
+static int parse_and(ExpressionParser *p, ExpressionValue *value)
+{
+    if (parse_comparison(p, value)) return -1;
+    while (expression_take(p, "&&") || expression_take(p, ".and.")) {
+        ExpressionValue right;
+        if (parse_comparison(p, &right) || expression_apply_binary(p, OPERATION_AND, value, right)) return -1;
+    }
+    return 0;
+}
+
+static int parse_or(ExpressionParser *p, ExpressionValue *value)
+{
+    if (parse_and(p, value)) return -1;
+    while (expression_take(p, "||") || expression_take(p, ".or.")) {
+        ExpressionValue right;
+        if (parse_and(p, &right) || expression_apply_binary(p, OPERATION_OR, value, right)) return -1;
+    }
+    return 0;
+}
+
+int expression_parse(ExpressionParser *p, ExpressionValue *value)
+{
+    if (!p->code) return parse_sum(p, value);
+    if (++p->depth > DEEPEST) return expression_fail(p, "more than 100 levels of nesting");
+    int status = parse_or(p, value);
+    if (status == 0 && expression_take(p, "?")) {
+        ExpressionValue first, second;
+        status = expression_parse(p, &first);
+        if (status == 0 && !expression_take(p, ":")) status = expression_fail(p, "a missing ':'");
+        if (status == 0) status = expression_parse(p, &second);
+        if (status == 0) status = expression_apply_select(p, first, second, value);
+    }
+    p->depth--;
+    return status;
 }
 
 int expression_evaluate(const char *text, size_t length, ExpressionLookup *lookup, const void *context,
                         ExpressionValue *value, char *message, size_t message_length)
 {
-    Evaluator e = {.text = text,
-                   .length = length,
-                   .lookup = lookup,
-                   .context = context,
-                   .message = message,
-                   .message_length = message_length};
-    if (evaluate_sum(&e, value)) return -1;
-    if (peek(&e) != '\0') return fail_at(&e, "something that is no operator");
-    value->truncated = e.truncated;
+    ExpressionParser p = {.text = text,
+                          .length = length,
+                          .lookup = lookup,
+                          .context = context,
+                          .message = message,
+                          .message_length = message_length};
+    if (expression_parse(&p, value)) return -1;
+    if (expression_peek(&p) != '\0') return expression_fail(&p, "something that is no operator");
+    value->truncated = p.truncated;
     return 0;
 }

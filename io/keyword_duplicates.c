@@ -79,6 +79,8 @@ static void free_members(const RecordList *list, size_t place)
         memory_free(curve->x.items);
         memory_free(curve->y.items);
         memory_free(curve->lines.items);
+    } else if (strcmp(list->noun, "function") == 0) {
+        memory_free(((FunctionDefinition *)(void *)record)->program.code);
     }
 }
 
@@ -151,6 +153,7 @@ void keyword_check_duplicates(Definitions *definitions, Diagnostics *diagnostics
         RECORDS(sets, SetDefinition, "*SET_SHELL", "shell set", SET_SHELL),
         RECORDS(sets, SetDefinition, "*SET_SEGMENT", "segment set", SET_SEGMENT),
         RECORDS(curves, CurveDefinition, "*DEFINE_CURVE", "curve", -1),
+        RECORDS(functions, FunctionDefinition, "*DEFINE_FUNCTION", "function", -1),
         RECORDS(coordinates, CoordinateDefinition, "*DEFINE_COORDINATE", "coordinate system", -1),
         RECORDS(vectors, VectorDefinition, "*DEFINE_VECTOR", "vector", -1),
         RECORDS(boxes, BoxDefinition, "*DEFINE_BOX", "box", -1),

@@ -22,20 +22,20 @@ static const FieldSpec card2_fields[] = {
     CARD_REAL("DAMP", fabric.damp, USED, NONE),
 };
 static const FieldSpec card3_fields[] = {
-    CARD_REAL("AOPT", fabric.aopt, USED, NONE),     CARD_REAL("FLC", fabric.flc, LISTED, NONE),
-    CARD_REAL("FAC", fabric.fac, LISTED, NONE),     CARD_REAL("ELA", fabric.ela, LISTED, NONE),
-    CARD_REAL("LNRC", fabric.lnrc, LISTED, NONE),   CARD_INT("FORM", fabric.form, USED, NONE),
-    CARD_REAL("FVOPT", fabric.fvopt, LISTED, NONE), CARD_REAL("TSRFAC", fabric.tsrfac, LISTED, NONE),
+    CARD_REAL("AOPT", fabric.aopt, USED, NONE),   CARD_REAL("FLC", fabric.flc, USED, NONE),
+    CARD_REAL("FAC", fabric.fac, USED, NONE),     CARD_REAL("ELA", fabric.ela, USED, NONE),
+    CARD_REAL("LNRC", fabric.lnrc, LISTED, NONE), CARD_INT("FORM", fabric.form, USED, NONE),
+    CARD_REAL("FVOPT", fabric.fvopt, USED, NONE), CARD_REAL("TSRFAC", fabric.tsrfac, LISTED, NONE),
 };
 static const FieldSpec card4_fields[] = {
     CARD_GAP,
     CARD_REAL("RGBRTH", fabric.rgbrth, LISTED, TIME),
-    CARD_REAL("A0REF", fabric.a0ref, LISTED, NONE),
+    CARD_REAL("A0REF", fabric.a0ref, USED, NONE),
     CARD_REAL("A1", fabric.a1, USED, NONE),
     CARD_REAL("A2", fabric.a2, USED, NONE),
     CARD_REAL("A3", fabric.a3, USED, NONE),
-    CARD_REAL("X0", fabric.x0, LISTED, NONE),
-    CARD_REAL("X1", fabric.x1, LISTED, NONE),
+    CARD_REAL("X0", fabric.x0, USED, NONE),
+    CARD_REAL("X1", fabric.x1, USED, NONE),
 };
 static const FieldSpec card5_fields[] = {
     CARD_REAL("V1", fabric.v1, USED, NONE),
@@ -96,6 +96,9 @@ static void read_fabric(KeywordRead *read)
     }
     if (status || !keyword_check_id(read, card.id, "MID", card.source)) return;
     if (fabric->aopt < 0.0 && !keyword_real_id(read, &fabric->aopt, SCALE_ID_DEFINE, "AOPT", third)) return;
+    if (!keyword_check_leakage(read, &fabric->flc, &fabric->fac, &fabric->ela, fabric->fvopt, fabric->x0, fabric->x1,
+                               third))
+        return;
     double a[3] = {fabric->a1, fabric->a2, fabric->a3}, v[3] = {fabric->v1, fabric->v2, fabric->v3};
     keyword_transform_vector(read, a);
     keyword_transform_vector(read, v);
@@ -114,8 +117,10 @@ static const KeywordSpec specs[] = {
      .read = read_fabric,
      .remark =
          "FORM 0, 1 and 2; others are refused by name, so cards 6 and 7 are never met. FLC, FAC, ELA, FVOPT, X0, X1 "
-         "and A0REF are for leakage through the fabric, LNRC, RGBRTH, TSRFAC and ISREFG for reference geometries: "
-         "without those they have no effect."},
+         "and A0REF are for leakage through the fabric, which OPT of the airbag switches on; FLC < 0, FAC < 0 and ELA "
+         "< 0 "
+         "name curves; where X0 is neither 0 nor 1 FLC and FAC are X2 and X3. LNRC, RGBRTH, TSRFAC and ISREFG are for "
+         "reference geometries: without those they have no effect."},
 };
 
 const KeywordFamily keyword_family_fabric = {"Fabric", specs, (int)(sizeof specs / sizeof *specs)};

@@ -25,12 +25,12 @@ static const FieldSpec rigid_constraint_fields[] = {
     CARD_REAL("CON2", rigid.con2, USED, NONE),
 };
 static const FieldSpec rigid_output_fields[] = {
-    CARD_REAL("LCO/A1", rigid.lco_or_a1, LISTED, NONE),
-    CARD_REAL("A2", rigid.a2, LISTED, NONE),
-    CARD_REAL("A3", rigid.a3, LISTED, NONE),
-    CARD_REAL("V1", rigid.v1, LISTED, NONE),
-    CARD_REAL("V2", rigid.v2, LISTED, NONE),
-    CARD_REAL("V3", rigid.v3, LISTED, NONE),
+    CARD_REAL("LCO/A1", rigid.lco_or_a1, USED, NONE),
+    CARD_REAL("A2", rigid.a2, USED, NONE),
+    CARD_REAL("A3", rigid.a3, USED, NONE),
+    CARD_REAL("V1", rigid.v1, USED, NONE),
+    CARD_REAL("V2", rigid.v2, USED, NONE),
+    CARD_REAL("V3", rigid.v3, USED, NONE),
 };
 #undef AT
 
@@ -105,7 +105,10 @@ static const KeywordSpec specs[] = {
      .cards = rigid_cards,
      .card_count = 3,
      .read = read_rigid,
-     .remark = "E and PR serve contact only. Parts of one material are one body each."},
+     .remark =
+         "E and PR serve contact only. Parts of one material are one body each. Card 3 is the frame of *AIRBAG's "
+         "sensors: "
+         "LCO a coordinate system at time 0, or x along A and y in the plane of A and V; blank: the principal axes."},
 };
 
 const KeywordFamily keyword_family_materials = {"Materials", specs, (int)(sizeof specs / sizeof *specs)};

@@ -131,16 +131,49 @@ static void write_gas(const Airbag *bag, const GasState *gas, FILE *stream)
 {
     const GasModel *model = &bag->gas;
     fprintf(stream, "    gas (%s): V %.8g, p %.6g, T %.6g, density %.6g, mass %.6g, energy %.6g\n",
-            model->kind == GAS_SIMPLE ? "SIMPLE_AIRBAG_MODEL" : "WANG_NEFSKE", gas->volume, gas->pressure,
-            gas->temperature, gas->density, gas->mass, gas->energy);
+            gas_name(model->kind), gas->volume, gas->pressure, gas->temperature, gas->density, gas->mass, gas->energy);
+    for (int i = 0; i < model->species_count; i++)
+        fprintf(stream, "    %s: molar mass %.6g, mass %.6g, cp %.6g at this temperature\n", model->species[i].name,
+                model->species[i].molar_mass, gas->species[i], species_cp(&model->species[i], gas->temperature));
+    if (model->kind == GAS_CHEMKIN)
+        fprintf(stream, "    species of DATA = 2 are those of NASA TM-4513 (McBride, Gordon, Reno 1993)\n");
     if (model->temperature_dependent)
         fprintf(stream, "    heat capacity: molar cp = %.6g + %.6g T, molar mass %.6g\n", model->a, model->b,
                 model->molar_mass);
-    else
+    else if (model->cv > 0.0)
         fprintf(stream, "    heat capacities: cv %.6g, cp %.6g, gamma %.6g\n", model->cv, model->cp,
-                model->cv > 0.0 ? model->cp / model->cv : NAN);
+                model->cp / model->cv);
     fprintf(stream, "    outside: pressure %.6g; exit areas: vent %.6g, porosity %.6g\n", bag->ambient,
             model->vent_area, model->porosity_area);
+    for (int i = 0; i < model->hole_count; i++)
+        fprintf(stream, "    vent by a part: area %.6g at the start\n", model->holes[i].initial_area);
+    for (int i = 0; i < model->leak_count; i++)
+        fprintf(stream, "    leaking part: option %d, area %.6g at the start\n", model->leaks[i].option,
+                model->leaks[i].initial_area);
+}
+
+/* What starts the inflow, and its jet. */
+static void write_inflator(const Model *model, int airbag, FILE *stream)
+{
+    for (int i = 0; i < model->sensor_count; i++) {
+        const Sensor *sensor = &model->sensors[i];
+        if (model->sensor_airbag[i] != airbag) continue;
+        fprintf(stream, "    sensor on part %d, %s: the inflow starts when it fires\n", sensor->part_id,
+                sensor->function ? "the user's function" : "built in");
+    }
+    for (int i = 0; i < model->jet_count; i++) {
+        const Jet *jet = &model->jets[i];
+        if (jet->airbag != airbag) continue;
+        fprintf(stream, "    jet%s: %s from (%.6g, %.6g, %.6g) towards (%.6g, %.6g, %.6g)%s",
+                jet->same_momentum ? " of constant momentum" : "",
+                jet->multiple ? "by angle"
+                : jet->wedge  ? "wedge"
+                              : "cone",
+                jet->focus[0], jet->focus[1], jet->focus[2], jet->head[0], jet->head[1], jet->head[2],
+                jet->moving ? ", on nodes" : "");
+        if (jet->react_node >= 0) fprintf(stream, ", reaction on node %d", model->node_id[jet->react_node]);
+        fputc('\n', stream);
+    }
 }
 
 void report_write_airbags(const Model *model, const State *state, FILE *stream)
@@ -153,6 +186,7 @@ void report_write_airbags(const Model *model, const State *state, FILE *stream)
                 bag->part_count, bag->part_count == 1 ? "" : "s", bag->node_count);
         write_closure(&bag->closure, stream);
         if (state) write_gas(bag, &state->gas[i], stream);
+        write_inflator(model, i, stream);
     }
 }
 

@@ -136,9 +136,9 @@ static int allocate_results(Results *results, const char *dir, const Model *mode
         if (history_create(&results->history[k], formats[k], dir, results->diagnostics)) return -1;
     results->grid_path = join_path(dir, GRID_NAME);
     results->xdmf_path = join_path(dir, XDMF_NAME);
-    results->part_area = memory_alloc((size_t)model->part_count + 1, sizeof(double));
+    results->part_flow = memory_alloc(2 * (size_t)model->part_count + 2, sizeof(double));
     results->part_centre = memory_alloc((size_t)model->part_count + 1, 3 * sizeof(double));
-    if (!results->grid_path || !results->xdmf_path || !results->part_area || !results->part_centre)
+    if (!results->grid_path || !results->xdmf_path || !results->part_flow || !results->part_centre)
         return report_memory(results->diagnostics);
     find_part_centres(model, results->part_centre);
     return 0;
@@ -196,7 +196,7 @@ int results_close(Results *results)
     if (xdmf_close(results->xdmf)) status = -1;
     memory_free(results->grid_path);
     memory_free(results->xdmf_path);
-    memory_free(results->part_area);
+    memory_free(results->part_flow);
     memory_free(results->part_centre);
     memory_free(results);
     return status;

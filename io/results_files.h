@@ -24,7 +24,7 @@ struct Results {
     char *grid_path, *xdmf_path; /* owned */
     VtkHdf *grid;                /* NULL until the first state */
     Xdmf *xdmf;
-    double *part_area;   /* workspace of abstat (part_count) [L2] */
+    double *part_flow;   /* workspace of abstat (2 x part_count) */
     double *part_centre; /* initial centre of mass of each part, for fixed rigid bodies (part_count x 3) [L] */
 };
 

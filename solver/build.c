@@ -1,6 +1,7 @@
 /* Definitions -> Model: the stages in order. */
 #include "solver/build.h"
 
+#include <dlfcn.h>
 #include <string.h>
 
 #include "solver/builder.h"
@@ -143,17 +144,19 @@ static int run_stages(Builder *b)
     errors = b->diagnostics->errors;
     if (build_surfaces(b)) status = -1;
     if (status && b->diagnostics->errors == errors) return -1;
-    if (build_airbags(b)) status = -1;
+    if (build_airbags(b) || build_connections(b)) status = -1;
     if (build_walls(b)) status = -1;
     if (build_mass_scaling(b)) status = -1;
     lump_masses(b);
     if (build_movement(b)) status = -1;
     if (status) return -1;
     if (build_pressure_sets(b)) return -1;
-    if (build_renumber(b) || build_groups(b) || build_wall_nodes(b) || build_link_ends(b)) return -1;
+    if (build_renumber(b) || build_groups(b) || build_areas(b) || build_wall_nodes(b) || build_link_ends(b)) return -1;
+    if (build_jets(b)) return -1;
     set_origin(b);
     b->model->caps_push_rim = b->options->caps_push_rim;
-    return take_motion(b);
+    if (take_motion(b)) return -1;
+    return build_sensors(b);
 }
 
 int model_build(const Definitions *definitions, const BuildOptions *options, Model *model, Diagnostics *diagnostics)
@@ -177,5 +180,6 @@ void model_free(Model *model)
     for (int i = 0; model->airbags && i < model->airbag_count; i++) surface_closure_free(&model->airbags[i].closure);
     for (size_t i = 0; i < model->owned_count; i++) memory_free(model->owned[i]);
     memory_free(model->owned);
+    if (model->sensor_library) dlclose(model->sensor_library);
     *model = (Model){0};
 }

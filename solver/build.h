@@ -7,10 +7,11 @@
 
 /* What the command line decides about the model. */
 typedef struct BuildOptions {
-    double end_time;           /* > 0 overrides ENDTIM */
-    bool one_point_quads;      /* one-point quads with hourglass control in place of 2 x 2 points */
-    bool caps_push_rim;        /* hole caps give their pressure force to the rim */
-    double energy_error_limit; /* > 0: stop beyond this share in place of 0.1 */
+    double end_time;            /* > 0 overrides ENDTIM */
+    bool one_point_quads;       /* one-point quads with hourglass control in place of 2 x 2 points */
+    bool caps_push_rim;         /* hole caps give their pressure force to the rim */
+    const char *sensor_library; /* shared library with the user's sensor (RBID > 0), NULL none */
+    double energy_error_limit;  /* > 0: stop beyond this share in place of 0.1 */
 } BuildOptions;
 
 /* Builds the model; all errors of the deck go to diagnostics together. Returns 0, or -1 if there was an error (the

@@ -42,14 +42,34 @@ static int build_curve(Builder *b, const CurveDefinition *definition, Curve *cur
     return 0;
 }
 
+/* The spline follows the curves of the deck in the model's list, each at most once. */
+int build_spline(Builder *b, int linear)
+{
+    Model *m = b->model;
+    const Curve *from = &m->curves[linear];
+    for (int i = (int)b->definitions->curves.count; i < m->curve_count; i++)
+        if (m->curves[i].id == from->id) return i;
+    Curve *curve = &m->curves[m->curve_count];
+    size_t count = (size_t)from->count;
+    *curve = *from;
+    curve->area = builder_alloc(b, count, sizeof *curve->area);
+    curve->bend = builder_alloc(b, count, sizeof *curve->bend);
+    double *work = memory_alloc(count, sizeof *work);
+    if (curve->area && curve->bend && work) curve_fill_spline(curve, work);
+    memory_free(work);
+    return curve->area && curve->bend && work ? m->curve_count++ : -1;
+}
+
 int build_curves(Builder *b)
 {
     const Definitions *d = b->definitions;
     int status = 0;
-    b->model->curves = builder_alloc(b, d->curves.count + 1, sizeof *b->model->curves);
+    b->model->first_function = 2 * (int)d->curves.count; /* room for a spline of each curve */
+    b->model->curves = builder_alloc(b, 2 * d->curves.count + d->functions.count + 1, sizeof *b->model->curves);
     if (!b->model->curves) return -1;
     b->model->curve_count = (int)d->curves.count;
     for (size_t i = 0; i < d->curves.count; i++)
         if (build_curve(b, &d->curves.items[i], &b->model->curves[i])) status = -1;
+    if (build_functions(b)) status = -1;
     return status;
 }

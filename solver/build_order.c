@@ -91,15 +91,21 @@ static int patch_order(const Builder *b, const Adjacency *a, int32_t *position)
 enum { CLASS_FREE, CLASS_SPECIAL, CLASS_FIXED };
 
 /* Class of each node: special where the lean loop does not do, fixed where nothing moves. */
-static void classify_nodes(const Builder *b, const Adjacency *a, unsigned char *class)
+static void classify_nodes(Builder *b, const Adjacency *a, unsigned char *class)
 {
     motion_mark_special(&b->motion, class);
     for (int i = 0; i < b->model->link_count; i++)
         for (int end = 0; end < 2; end++) class[b->model->links[i].node[end]] = CLASS_SPECIAL;
+    mark_jet_nodes(b, class);
     for (int i = 0; b->options->caps_push_rim && i < b->model->airbag_count; i++)
         for (int k = 0; k < b->closures[i].cap_count; k++)
             for (int c = 0; c < b->closures[i].caps[k].count; c++)
                 class[b->closures[i].caps[k].node[c]] = CLASS_SPECIAL;
+    for (int i = 0; i < b->model->airbag_count; i++) {
+        const Airbag *bag = &b->model->airbags[i];
+        for (int k = 0; bag->gas.kind == GAS_FLUID_AND_GAS && k < bag->node_count; k++)
+            class[bag->node[k]] = CLASS_SPECIAL; /* pressure by height */
+    }
     for (int n = 0; n < b->node_count; n++) {
         int first = a->start[n], last = a->start[n + 1];
         for (int k = first + 1; k < last; k++)
@@ -233,6 +239,7 @@ int build_renumber(Builder *b)
     if (!status) status = fill_nodes(b, keys);
     if (!status) {
         renumber_lists(b, new_index);
+        renumber_functions(b, new_index);
         status = motion_renumber(&b->motion, new_index);
     }
     void *blocks[] = {position, new_index, class, keys, adjacency.start, adjacency.record};

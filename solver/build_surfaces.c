@@ -83,7 +83,7 @@ static int airbag_facets(Builder *b, FacetMap *map, const AirbagDefinition *bag,
     return status;
 }
 
-static int add_source(Builder *b, int32_t record, int source, int sign)
+static int add_source(Builder *b, int32_t record, int source, int sign, bool push)
 {
     ShellRecord *r = &b->records[record];
     if (r->source_count == 4) {
@@ -93,8 +93,28 @@ static int add_source(Builder *b, int32_t record, int source, int sign)
         return -1;
     }
     r->source[r->source_count] = source;
+    r->push[r->source_count] = push;
     r->sign[r->source_count++] = sign;
     return 0;
+}
+
+/* EXCP = 1 of *AIRBAG_INTERACTION: the part between two bags feels the pressure of neither. */
+static bool is_excluded(const Builder *b, const AirbagDefinition *bag, int part_id)
+{
+    for (size_t i = 0; bag->id != 0 && i < b->definitions->interactions.count; i++) {
+        const InteractionDefinition *c = &b->definitions->interactions.items[i];
+        if (c->excp != 0 && abs(c->pid) == part_id && (c->ab1 == bag->id || c->ab2 == bag->id)) return true;
+    }
+    return false;
+}
+
+/* Shells of *MAT_NULL in a bag with NONULL, and excluded partitions, bound a bag but do not feel its pressure. */
+static bool feels_pressure(const Builder *b, const AirbagDefinition *bag, const ShellRecord *r)
+{
+    if (r->part < 0) return true;
+    if (is_excluded(b, bag, b->model->parts[r->part].id)) return false;
+    if (bag->nonull == 0 || b->parts[r->part].material < 0) return true;
+    return b->definitions->materials.items[b->parts[r->part].material].kind != MATERIAL_NULL;
 }
 
 /* Orients and closes the surface of one bag; its sources are set on the records. */
@@ -119,7 +139,9 @@ static int close_bag(Builder *b, int airbag, FacetList *list)
                           .keyword = "*AIRBAG"};
     if (!status) status = surface_close(&input, turn, &b->closures[airbag], b->diagnostics);
     for (size_t i = 0; !status && i < list->count; i++)
-        if (turn[i] != 0) status = add_source(b, list->record[i], airbag, list->sign[i] * turn[i]); /* 0: inside */
+        if (turn[i] != 0) /* 0: inside */
+            status = add_source(b, list->record[i], airbag, list->sign[i] * turn[i],
+                                feels_pressure(b, definition, &b->records[list->record[i]]));
     memory_free(turn);
     memory_free(id);
     memory_free(node_id);
@@ -165,6 +187,7 @@ static int assign_pressure_sets(Builder *b)
         for (int s = 0; s < r->source_count; s++) {
             wanted.source[s] = r->source[s];
             wanted.sign[s] = r->sign[s] * r->orientation;
+            wanted.push[s] = wanted.sign[s] * r->push[s];
         }
         int found = -1;
         for (int k = 0; k < model->pressure_set_count && found < 0; k++)
@@ -190,7 +213,8 @@ static int load_facets(Builder *b, FacetMap *map)
     for (int i = 0; !status && i < motion->segment_count; i++) {
         status = facets_add_segment(b, map, &list, motion->segment_node + 4 * i);
         if (!status)
-            status = add_source(b, list.record[i], b->model->airbag_count + motion->segment_load[i], -list.sign[i]);
+            status =
+                add_source(b, list.record[i], b->model->airbag_count + motion->segment_load[i], -list.sign[i], true);
     }
     facets_free(&list);
     return status;

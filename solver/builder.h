@@ -35,6 +35,7 @@ typedef struct ShellRecord {
     int source_count; /* pressures that act on it */
     int source[4];    /* pressure sources: airbags, then segment loads */
     int sign[4];      /* +1: the source is behind the stored winding (pushes along its normal) */
+    int push[4];      /* 0: the facet bounds the source's volume, but does not feel its pressure */
     int pressure_set; /* -1 none */
     int orientation;  /* of the area vector relative to the stored winding */
 } ShellRecord;
@@ -78,16 +79,24 @@ int build_shells(Builder *builder);    /* shells -> records, masses */
 int build_links(Builder *builder);     /* beams, springs, cables -> links, masses of nodes; after build_shells */
 int build_link_ends(Builder *builder); /* which links share an end, and its mass; after build_renumber */
 int build_solids(Builder *builder);    /* solids -> masses of their nodes; after build_shells */
-int build_curves(Builder *builder);
-int build_surfaces(Builder *builder);      /* airbags' surfaces: orientation and caps */
-int build_pressure_sets(Builder *builder); /* and segment loads -> pressure sets; after build_motion */
-int build_airbags(Builder *builder);       /* gas models; after build_surfaces */
-int build_output(Builder *builder);        /* termination, step control, output plan */
-int build_walls(Builder *builder);         /* rigid walls and their nodes; after build_shells */
-int build_wall_nodes(Builder *builder);    /* the same in the model's order; after build_renumber */
-int build_mass_scaling(Builder *builder);  /* DT2MS */
-int build_renumber(Builder *builder);      /* node and element order for locality */
-int build_groups(Builder *builder);        /* blocks, kernel constants */
-int build_rows(Builder *builder);          /* segments and rows of corner sums */
+int build_curves(Builder *builder);    /* and functions */
+int build_functions(Builder *builder); /* by build_curves */
+void renumber_functions(Builder *builder, const int32_t *new_index); /* by build_renumber */
+int build_spline(Builder *builder, int curve); /* index of a curve's points as a cubic spline; -1 without memory */
+int build_surfaces(Builder *builder);          /* airbags' surfaces: orientation and caps */
+int build_pressure_sets(Builder *builder);     /* and segment loads -> pressure sets; after build_motion */
+int build_airbags(Builder *builder);           /* gas models; after build_surfaces */
+int build_connections(Builder *builder);       /* between bags; after build_airbags */
+int build_areas(Builder *builder);             /* of the bags' parts at the start; after build_groups */
+int build_output(Builder *builder);            /* termination, step control, output plan */
+int build_mass_scaling(Builder *builder);      /* DT2MS */
+int build_renumber(Builder *builder);          /* node and element order for locality */
+int build_groups(Builder *builder);            /* blocks, kernel constants */
+int build_rows(Builder *builder);              /* segments and rows of corner sums */
+int build_walls(Builder *builder);             /* rigid walls and their nodes; after build_shells */
+int build_wall_nodes(Builder *builder);        /* the same in the model's order; after build_renumber */
+int build_jets(Builder *builder);              /* after build_groups */
+void mark_jet_nodes(Builder *builder, unsigned char *special); /* by build_renumber: NREACT */
+int build_sensors(Builder *builder);                           /* after the motion is taken over */
 
 #endif

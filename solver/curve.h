@@ -1,4 +1,4 @@
-/* Load curves of *DEFINE_CURVE: piecewise linear, constant beyond the last points. */
+/* Load curves of *DEFINE_CURVE: piecewise linear or a natural cubic spline, constant beyond the last points. */
 #ifndef BILLOW_CURVE_H
 #define BILLOW_CURVE_H
 
@@ -10,10 +10,15 @@ typedef struct Curve {
     int count;     /* points, >= 1 */
     double *x, *y; /* abscissae (strictly increasing) and ordinates (count), scaled: SFA (a + OFFA), SFO (o + OFFO) */
     double *area;  /* integral of y from x[0] to x[i] (count) */
+    double *bend;  /* NULL: linear; else the second derivatives of the spline at the points (count) */
 } Curve;
 
 /* Fills area from x and y (count entries each, area allocated by the caller). */
 void curve_fill_area(Curve *curve);
+
+/* Fills bend (count entries, allocated by the caller) with the natural spline's second derivatives, then area. work:
+ * count doubles. */
+void curve_fill_spline(Curve *curve, double *work);
 
 /* y(x). Outside the points the end values hold, as LS-DYNA does for load curves.
  * Time curves (mass flow, pressure, motion) use the same rule. */

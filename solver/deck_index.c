@@ -60,6 +60,7 @@ static int index_lists(DeckIndex *index, Diagnostics *diagnostics)
         INDEX_TASK(parts, parts, "*PART", "part"),
         INDEX_TASK(materials, materials, "*MAT", "material"),
         INDEX_TASK(curves, curves, "*DEFINE_CURVE", "curve"),
+        INDEX_TASK(functions, functions, "*DEFINE_FUNCTION", "function"),
         INDEX_TASK(coordinates, coordinates, "*DEFINE_COORDINATE", "coordinate system"),
         INDEX_TASK(vectors, vectors, "*DEFINE_VECTOR", "vector"),
         INDEX_TASK(boxes, boxes, "*DEFINE_BOX", "box"),
@@ -151,7 +152,13 @@ int deck_index_curve(const DeckIndex *index, int curve_id, const char *field, So
 {
     int32_t found = curve_id > 0 ? id_map_find(&index->curves, curve_id) : -1;
     if (found >= 0) return (int)found;
-    if (curve_id == 0) {
+    if (curve_id > 0 && id_map_find(&index->functions, curve_id) >= 0) {
+        diagnostics_add(
+            diagnostics, SEVERITY_ERROR, source, keyword,
+            "%s = %d is a function; this field takes only a *DEFINE_CURVE (docs/functions.md says which take "
+            "functions)",
+            field, curve_id);
+    } else if (curve_id == 0) {
         diagnostics_add(diagnostics, SEVERITY_ERROR, source, keyword,
                         "%s is 0 or blank; give the id of a *DEFINE_CURVE", field);
     } else {
@@ -162,10 +169,21 @@ int deck_index_curve(const DeckIndex *index, int curve_id, const char *field, So
     return -1;
 }
 
+int deck_index_curve_or_function(const DeckIndex *index, int curve_id, const char *field, Source source,
+                                 const char *keyword, Diagnostics *diagnostics)
+{
+    int32_t function = curve_id > 0 ? id_map_find(&index->functions, curve_id) : -1;
+    if (function < 0) return deck_index_curve(index, curve_id, field, source, keyword, diagnostics);
+    if (id_map_find(&index->curves, curve_id) < 0) return 2 * (int)index->definitions->curves.count + (int)function;
+    diagnostics_add(diagnostics, SEVERITY_ERROR, source, keyword,
+                    "%s = %d is a curve and a function; give one of them another id", field, curve_id);
+    return -1;
+}
+
 void deck_index_free(DeckIndex *index)
 {
-    IdMap *maps[] = {&index->nodes,  &index->shells,      &index->parts,   &index->materials, &index->solids,
-                     &index->curves, &index->coordinates, &index->vectors, &index->boxes};
+    IdMap *maps[] = {&index->nodes,     &index->shells, &index->parts,       &index->materials, &index->solids,
+                     &index->functions, &index->curves, &index->coordinates, &index->vectors,   &index->boxes};
     for (size_t m = 0; m < sizeof maps / sizeof *maps; m++) id_map_free(maps[m]);
     for (int kind = 0; kind < 4; kind++) id_map_free(&index->sets[kind]);
     memory_free(index->part_shell_start);

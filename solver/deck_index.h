@@ -8,7 +8,7 @@
 /* Indices are positions in the lists of Definitions (deck order). Curve indices are those of Definitions.curves. */
 typedef struct DeckIndex {
     const Definitions *definitions;
-    IdMap nodes, shells, solids, parts, materials, curves, coordinates, vectors, boxes;
+    IdMap nodes, shells, solids, parts, materials, curves, functions, coordinates, vectors, boxes;
     IdMap sets[4];             /* by SetKind; index into Definitions.sets */
     int32_t *part_shell_start; /* CSR by part (part count + 1): shells of each part, deck order */
     int32_t *part_shell;
@@ -22,6 +22,11 @@ int deck_index_build(DeckIndex *index, const Definitions *definitions, Diagnosti
 /* Index of a curve for use by keyword at source, or -1 after an error saying what names it (field, e.g. "LCID"). */
 int deck_index_curve(const DeckIndex *index, int curve_id, const char *field, Source source, const char *keyword,
                      Diagnostics *diagnostics);
+
+/* The same for fields that also take *DEFINE_CURVE_FUNCTION and *DEFINE_FUNCTION: function number k has the index
+ * (count of curves) + k. */
+int deck_index_curve_or_function(const DeckIndex *index, int curve_id, const char *field, Source source,
+                                 const char *keyword, Diagnostics *diagnostics);
 
 void deck_index_free(DeckIndex *index);
 

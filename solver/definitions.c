@@ -17,6 +17,7 @@ void definitions_free(Definitions *d)
         memory_free(d->curves.items[i].y.items);
         memory_free(d->curves.items[i].lines.items);
     }
+    for (size_t i = 0; i < d->functions.count; i++) memory_free(d->functions.items[i].program.code);
     void *lists[] = {d->nodes.items,         d->shells.items,         d->parts.items,
                      d->sections.items,      d->materials.items,      d->hourglasses.items,
                      d->sets.items,          d->curves.items,         d->coordinates.items,
@@ -27,7 +28,8 @@ void definitions_free(Definitions *d)
                      d->dampings.items,      d->airbags.items,        d->walls.items,
                      d->solids.items,        d->solid_sections.items, d->merges.items,
                      d->extra_nodes.items,   d->nodal_bodies.items,   d->beams.items,
-                     d->beam_sections.items, d->discretes.items,      d->discrete_sections.items};
+                     d->beam_sections.items, d->discretes.items,      d->discrete_sections.items,
+                     d->interactions.items,  d->porosities.items,     d->functions.items};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) memory_free(lists[i]);
     memset(d, 0, sizeof *d);
 }

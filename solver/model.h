@@ -11,7 +11,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "airbag/connection.h"
 #include "airbag/gas.h"
+#include "airbag/jet.h"
+#include "airbag/sensor.h"
 #include "airbag/surface.h"
 #include "contact/rigid_wall.h"
 #include "elements/law.h"
@@ -20,6 +23,7 @@
 #include "solver/constraints.h"
 #include "solver/curve.h"
 #include "solver/diagnostics.h"
+#include "solver/function.h"
 #include "solver/loads.h"
 #include "solver/rigid_body.h"
 
@@ -60,6 +64,7 @@ typedef struct PressureSet {
     int count;
     int source[4]; /* index into pressure sources: airbags first, then segment loads */
     int sign[4];   /* +1: the source is on the inner side of the stored orientation */
+    int push[4];   /* sign, or 0: the surface bounds the source's volume, but does not feel its pressure */
 } PressureSet;
 
 typedef struct Part {
@@ -80,6 +85,7 @@ typedef struct Solid {
     int32_t node[8];
     double share[8]; /* [M] */
 } Solid;
+enum { BILLOW_BAG_FUNCTIONS = 8 };
 
 /* One control volume. */
 typedef struct Airbag {
@@ -91,8 +97,15 @@ typedef struct Airbag {
     SurfaceClosure closure; /* caps and report, airbag/surface.h */
     int *part;              /* indices of the parts on its surface (part_count) */
     int part_count;
-    int *node; /* nodes on its surface (node_count), ascending */
+    int surface_parts; /* the rest of part are vents off the surface */
+    int first_part;    /* place of part[0] in State.part_area */
+    int *node;         /* nodes on its surface (node_count), ascending */
     int node_count;
+    int pop_part;    /* RBIDP: index of the part whose acceleration may open the exits, -1 none */
+    int facet_count; /* FLUID_AND_GAS only: its surface, wound outwards (facet_count x 4) */
+    int32_t *facet;
+    int function[BILLOW_BAG_FUNCTIONS]; /* indices of the functions that the gas uses (function_count) */
+    int function_count;
     double ambient; /* pressure outside: applied pressure = p - ambient */
     Source source;
 } Airbag;
@@ -155,8 +168,24 @@ typedef struct Model {
     Part *parts;
     int airbag_count;
     Airbag *airbags;
+    int connection_count;
+    GasConnection *connections; /* airbag/connection.h */
+    int bag_part_count;         /* parts of all bags together */
+    int *group_place; /* place of each group in each bag's list of parts, -1 none (group_count x airbag_count) */
+    bool has_fluid;   /* a bag of FLUID_AND_GAS: pressure by height */
+    bool blockage;    /* contact blocks leaking fabric, vents or openings: State.contact_share is there */
+    int sensor_count;
+    Sensor *sensors;      /* airbag/sensor.h (sensor_count) */
+    int *sensor_airbag;   /* index of the airbag that each starts (sensor_count) */
+    void *sensor_library; /* handle of dlopen, NULL none */
+    int jet_count, jet_facet_count;
+    Jet *jets; /* airbag/jet.h (jet_count); their facets: jet_facet_count */
     int curve_count;
-    Curve *curves;
+    Curve
+        *curves; /* (first_function + function_count): after room for splines one of a single point for each function */
+    int first_function; /* index of the first function's curve, >= curve_count */
+    int function_count;
+    FunctionProgram *functions; /* solver/function.h, set as curves in solver/step_functions.c */
     int segment_load_count;
     SegmentLoad *segment_loads; /* solver/loads.h */
     Loads loads;                /* node loads, body classes: solver/loads.h */

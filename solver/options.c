@@ -111,6 +111,12 @@ static int read_ignored(Options *options, const char *word)
     return 0;
 }
 
+static int read_sensor_library(Options *options, const char *value)
+{
+    options->build.sensor_library = value;
+    return 0;
+}
+
 static int set_quiet(Options *options, const char *value)
 {
     (void)value;
@@ -141,6 +147,7 @@ static const OptionName option_names[] = {
     {NULL, "--one-point-quads", false, true, set_one_point},
     {NULL, "--caps-push-rim", false, true, set_caps_push},
     {NULL, "--energy-error-limit", true, true, read_energy_limit},
+    {NULL, "--sensor-library", true, true, read_sensor_library},
 };
 enum { OPTION_NAMES = sizeof option_names / sizeof *option_names };
 
@@ -306,6 +313,8 @@ static const char run_help[] =
     "      --one-point-quads   4-node elements with one point and hourglass control: faster, less accurate\n"
     "      --caps-push-rim     flat caps over the bag's holes give their pressure force to the rim\n"
     "      --energy-error-limit X   stop when the energy balance is lost by more than this share (0.1)\n"
+    "      --sensor-library FILE    shared library with the sensor function of bags with RBID > 0; its code\n"
+    "                          runs with your rights\n"
     "\n"
     "Ctrl-C or SIGTERM finishes the step, writes a state and a checkpoint and ends. A file d3kil in the\n"
     "working directory with sw1 (checkpoint and stop), sw2 (print the time), sw3 (checkpoint) or sw4 (write\n"
@@ -318,6 +327,7 @@ void options_print_help(Command command, FILE *stream)
         fputs(run_help, stream);
     } else if (command == COMMAND_CHECK_HELP) {
         fputs("usage: billow check DECK [--end-time T] [--one-point-quads] [--caps-push-rim]\n"
+              "                         [--sensor-library FILE]\n"
               "\n"
               "Reads and validates a deck and reports parts, masses, bags with volume, holes and gas, the stable\n"
               "time step with its element, and every field that is read but not used. Runs no steps, writes no file.\n"

@@ -61,6 +61,14 @@ static void serve_switch(Recorder *recorder, const Model *model, const State *st
         log_write_event(recorder->log, state->clock, "sense switch sw%d", (int)value);
 }
 
+/* One line for each sensor that fires in this cycle. */
+static void watch_sensors(const Recorder *recorder, const Model *model, const State *state)
+{
+    for (int i = 0; i < model->sensor_count; i++)
+        if (state->gas[model->sensor_airbag[i]].inflow_start == state->clock->time)
+            log_write_event(recorder->log, state->clock, "the sensor of airbag %d fires", model->sensors[i].airbag_id);
+}
+
 static bool recorder_due(void *user, const Model *model, const State *state, bool last)
 {
     Recorder *recorder = user;
@@ -77,6 +85,7 @@ static bool recorder_due(void *user, const Model *model, const State *state, boo
         serve_switch(recorder, model, state, wall);
     }
     watch_energy(recorder, state);
+    if (model->sensor_count > 0) watch_sensors(recorder, model, state);
     progress_update(&recorder->progress, model, state, wall);
     return last || recorder->due || recorder->want_states || recorder->want_checkpoint || recorder->stop;
 }

@@ -30,10 +30,17 @@ static size_t lay_out(const Model *model, State *state)
     state->part_hourglass = take(base, &used, (size_t)model->part_count * sizeof *state->part_hourglass);
     state->group_energy = take(base, &used, (size_t)model->group_count * sizeof *state->group_energy);
     state->cap_volume = take(base, &used, (size_t)model->airbag_count * sizeof *state->cap_volume);
+    state->part_area = take(base, &used, (size_t)model->bag_part_count * sizeof *state->part_area);
+    state->part_blocked = take(base, &used, (size_t)model->bag_part_count * sizeof *state->part_blocked);
+    size_t shares = model->blockage ? (size_t)model->element_count : 0;
+    state->contact_share = take(base, &used, shares * sizeof *state->contact_share);
     state->rigid = take(base, &used, (size_t)model->rigid_body_count * sizeof *state->rigid);
     state->link_energy = take(base, &used, (size_t)model->link_count * sizeof *state->link_energy);
     state->wall = take(base, &used, (size_t)model->wall_count * sizeof *state->wall);
     state->wall_side = take(base, &used, (size_t)model->wall_count * (size_t)model->moving_count);
+    state->sensor = take(base, &used, (size_t)model->sensor_count * sizeof *state->sensor);
+    state->jet = take(base, &used, (size_t)model->jet_count * sizeof *state->jet);
+    state->jet_shape = take(base, &used, (size_t)model->jet_facet_count * sizeof *state->jet_shape);
     return (used + 63) / 64 * 64;
 }
 
@@ -96,6 +103,16 @@ static int start_gas(const Model *model, State *state)
     return status;
 }
 
+/* The inflow of bags with a sensor waits for it. */
+static void start_sensors(const Model *model, State *state)
+{
+    for (int i = 0; i < model->sensor_count; i++) {
+        int body = model->sensors[i].rigid_body;
+        state->gas[model->sensor_airbag[i]].inflow_start = INFINITY;
+        if (body >= 0) memcpy(state->sensor[i].start, state->rigid[body].v, sizeof state->sensor[i].start);
+    }
+}
+
 static void start_energies(const Model *model, State *state)
 {
     Energies *e = state->energy;
@@ -134,6 +151,7 @@ int state_create(const Model *model, State *state)
         return -1;
     }
     links_act(model, state, NULL);
+    start_sensors(model, state);
     start_energies(model, state);
     return 0;
 }

@@ -48,10 +48,18 @@ typedef struct State {
     double *part_hourglass;
     double *group_energy;     /* energy stored in each group at the last cycle (group_count) */
     double *cap_volume;       /* under the caps of each bag at the last cycle (airbag_count) [L3] */
+    double *part_area;        /* current areas of the bags' parts (bag_part_count) [L2], written by step_bags */
+    double *part_blocked;     /* of it, what contact covers (bag_part_count) [L2] */
+    double *contact_share;    /* share of each element's nodes that are in contact, 0 to 1 (element_count if
+                                 Model.blockage, else none); written by the contact stage, zero without contact */
     RigidState *rigid;        /* (rigid_body_count), solver/rigid_body.h */
     double *link_energy;      /* stored in each link at the last cycle (link_count), written by links_act */
     WallState *wall;          /* (wall_count), contact/rigid_wall.h */
     unsigned char *wall_side; /* WALL_SIDE_... of each node (wall_count x moving_count), written by step_walls */
+    SensorState *sensor;      /* (sensor_count), airbag/sensor.h */
+    JetState *jet;            /* (jet_count), airbag/jet.h */
+    double *jet_shape;        /* (jet_facet_count): > 0 the jet's pressure is strength times it, 0 out of its reach,
+                                 -1 hidden */
 } State;
 
 /* Bytes that a State of this model needs. */

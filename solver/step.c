@@ -92,6 +92,9 @@ static int allocate(Workspace *w)
     w->stagnation = memory_alloc(sets, sizeof(double));
     w->set_volume = memory_alloc(sets, sizeof(double));
     w->set_area = memory_alloc(sets, sizeof(double));
+    w->group_area = memory_alloc((size_t)m->group_count + 1, sizeof(double));
+    w->part_area = memory_alloc((size_t)m->part_count + 1, sizeof(double));
+    w->part_blocked = memory_alloc((size_t)m->part_count + 1, sizeof(double));
     w->source_pressure = memory_alloc(bags + (size_t)m->segment_load_count, sizeof(double));
     classes++; /* vector loads reach one value further */
     w->class_gravity = memory_alloc(classes, sizeof(double));
@@ -99,6 +102,7 @@ static int allocate(Workspace *w)
     w->class_velocity = memory_alloc(classes, sizeof(double));
     w->bag_volume = memory_alloc(bags, sizeof(double));
     w->bag_area = memory_alloc(bags, sizeof(double));
+    w->fluid_volume = memory_alloc(bags, sizeof(double));
     w->force = memory_alloc(nodes, sizeof(double));
     w->acceleration = memory_alloc(nodes, sizeof(double));
     w->before = m->has_moving_walls ? memory_alloc(nodes, sizeof(double)) : w->acceleration;
@@ -121,10 +125,11 @@ static int allocate(Workspace *w)
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
-                      w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force};
+                      w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
+                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
-    return 0;
+    return step_functions_allocate(w) || step_jets_allocate(w) ? -1 : 0;
 }
 
 static void release(Workspace *w)
@@ -135,8 +140,11 @@ static void release(Workspace *w)
                       w->class_damping, w->class_velocity, w->bag_volume,   w->bag_area,        w->force,
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
-                      w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force};
+                      w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
+                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
+    step_functions_release(w);
+    step_jets_release(w);
 }
 
 static void prepare(Workspace *w)
@@ -189,6 +197,7 @@ static void loop(void *context, int thread, Team *team)
         team_barrier(team);
         if (w->failure->failed) break;
         times->waiting += lap(&since);
+        if (w->jets) step_jets_push(w, thread, team);
         if (w->plan.implicit_gas) {
             step_gas_pass(w, thread, threads);
             team_barrier(team);
@@ -204,6 +213,7 @@ static void loop(void *context, int thread, Team *team)
             if (thread == 0) step_special(w);
             team_barrier(team);
         }
+        if (w->jets) step_jets_count(w, thread, team);
         times->waiting += lap(&since);
         if (!w->plan.emit) continue;
         if (thread == 0) step_emit(w);

@@ -21,6 +21,10 @@ static NodeSums sum_nodes(const Workspace *w)
         t.compliance += s->compliance;
         t.stopped += s->stopped;
     }
+    for (int c = 0; c < w->jet_chunk_count; c++) {
+        t.bag_before += w->jet_sums[c].before;
+        t.bag_after += w->jet_sums[c].after;
+    }
     return t;
 }
 

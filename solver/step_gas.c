@@ -32,6 +32,7 @@ static double sum_chunks(Workspace *w)
                 w->critical_group = g;
             }
         }
+        w->group_area[g] = sum.area;
         if (group->pressure_set >= 0) {
             w->set_volume[group->pressure_set] += sum.volume;
             w->set_area[group->pressure_set] += sum.area;
@@ -68,51 +69,13 @@ static void set_pressures(Workspace *w)
         for (int k = 0; k < set->count; k++) {
             int source = set->source[k];
             if (source >= m->airbag_count) {
-                w->load_pressure[s] += set->sign[k] * w->source_pressure[source];
+                w->load_pressure[s] += set->push[k] * w->source_pressure[source];
                 continue;
             }
-            w->bag_pressure[s] += set->sign[k] * w->source_pressure[source];
-            w->stagnation[s] += m->airbags[source].spsf * m->airbags[source].gas.ambient_density;
+            w->bag_pressure[s] += set->push[k] * w->source_pressure[source];
+            if (set->push[k] != 0) w->stagnation[s] += m->airbags[source].spsf * m->airbags[source].gas.ambient_density;
         }
     }
-}
-
-/* Advances every bag from t_{n-1} to t_n on the walls at t_n. */
-static int advance_bags(Workspace *w)
-{
-    const Model *m = w->model;
-    for (int i = 0; i < m->airbag_count; i++) {
-        double cap = surface_cap_volume(&m->airbags[i].closure, w->state->x, m->origin);
-        w->bag_volume[i] = cap;
-        w->bag_area[i] = 0.0;
-        w->state->gas[i].cap_work += w->state->gas[i].applied * (cap - w->state->cap_volume[i]);
-        w->state->cap_volume[i] = cap;
-    }
-    for (int s = 0; s < m->pressure_set_count; s++) {
-        const PressureSet *set = &m->pressure_sets[s];
-        for (int k = 0; k < set->count; k++) {
-            if (set->source[k] >= m->airbag_count) continue;
-            w->bag_volume[set->source[k]] += set->sign[k] * w->set_volume[s];
-            w->bag_area[set->source[k]] += w->set_area[s];
-        }
-    }
-    if (!(w->plan.dt_before > 0.0)) return 0;
-    for (int i = 0; i < m->airbag_count; i++) {
-        const Airbag *bag = &m->airbags[i];
-        GasStep step = {.time = w->plan.time - w->plan.dt_before,
-                        .dt = w->plan.dt_before,
-                        .volume = w->bag_volume[i],
-                        .area = w->bag_area[i]};
-        const char *why = "";
-        if (gas_advance(&bag->gas, m->curves, bag->vsca, bag->psca, bag->vini, &step, &w->state->gas[i], &why)) {
-            step_fail(w,
-                      "look at the last state written: walls that pass through each other or a step that is too large "
-                      "do this; lower TSSFAC, or close the bag",
-                      "airbag %d: %s (volume %g)", bag->id, why, w->bag_volume[i]);
-            return -1;
-        }
-    }
-    return 0;
 }
 
 /* Body classes at t_n, and the mean velocities that mass-weighted damping refers to (eq. T5). */
@@ -144,14 +107,11 @@ static void set_classes(Workspace *w)
 
 /* A step that resolves the gas when no element asks for one: its own time scale, and a thousandth of the period scale
  * of walls that move on it. */
-static double gas_step(const Workspace *w, double gas_rate)
+static double gas_step(Workspace *w, double gas_rate)
 {
     const Model *m = w->model;
-    double step = m->end_time / 1000.0;
-    for (int i = 0; i < m->airbag_count; i++) {
-        double own = gas_time_scale(&m->airbags[i].gas, m->curves, &w->state->gas[i], w->plan.time);
-        step = own < step ? own : step;
-    }
+    double step = m->end_time / 1000.0, own = step_bags_scale(w);
+    step = own < step ? own : step;
     if (gas_rate > 0.0 && 0.001 / sqrt(gas_rate) < step) step = 0.001 / sqrt(gas_rate);
     double intervals[] = {m->output.states, m->output.glstat, m->output.abstat, m->output.nodout};
     for (int i = 0; i < 4; i++)
@@ -215,7 +175,8 @@ void step_gas(Workspace *w)
     w->plan.time = clock->time;
     w->plan.dt_before = clock->step;
     double rate = sum_chunks(w);
-    if (advance_bags(w)) return;
+    if (step_bags(w)) return;
+    if (m->sensor_count > 0) step_sensors(w);
     set_pressures(w);
     if (m->loads.class_count > 0) set_classes(w);
     w->plan.last = clock->time >= m->end_time || (m->end_cycle > 0 && clock->cycle >= m->end_cycle);
@@ -225,5 +186,6 @@ void step_gas(Workspace *w)
     w->plan.node_advance = w->plan.emit || m->wall_count > 0 ? 0.0 : w->plan.dt_next;
     w->closed = w->plan.emit;
     if (m->wall_count > 0) step_walls_begin(w);
+    if (w->jets) step_jets_prepare(w);
     if (!w->plan.emit) step_tick(w);
 }

@@ -15,6 +15,7 @@ static void add_node(const Workspace *w, int node, GasPass *bags)
         const double *force = w->rows + ROW_SIZE * (ptrdiff_t)m->node_row[k], *share = force + ROW_AREA;
         int set = m->row_set[m->node_row[k]];
         double pressure = set < 0 ? 0.0 : w->bag_pressure[set] + w->load_pressure[set];
+        if (m->has_fluid && set >= 0) pressure += step_hydrostatic(w, set, w->state->x + 3 * (ptrdiff_t)node);
         for (int i = 0; i < 3; i++) f[i] += force[i] + pressure * share[i];
     }
     for (int b = 0; b < m->airbag_count; b++) {
@@ -25,7 +26,7 @@ static void add_node(const Workspace *w, int node, GasPass *bags)
             const PressureSet *set = &m->pressure_sets[m->row_set[row]];
             const double *share = w->rows + ROW_SIZE * (ptrdiff_t)row + ROW_AREA;
             for (int j = 0; j < set->count; j++)
-                for (int i = 0; set->source[j] == b && i < 3; i++) s[i] += set->sign[j] * share[i];
+                for (int i = 0; set->source[j] == b && i < 3; i++) s[i] += set->push[j] * share[i];
         }
         bags[b].compliance += (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) * inverse;
         bags[b].opening += (s[0] * f[0] + s[1] * f[1] + s[2] * f[2]) * inverse;
@@ -66,7 +67,7 @@ void step_gas_implicit(Workspace *w)
         for (int s = 0; s < m->pressure_set_count; s++) {
             const PressureSet *set = &m->pressure_sets[s];
             for (int j = 0; j < set->count; j++)
-                if (set->source[j] == b) w->bag_pressure[s] += set->sign[j] * change;
+                if (set->source[j] == b) w->bag_pressure[s] += set->push[j] * change;
         }
     }
 }

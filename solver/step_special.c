@@ -18,6 +18,7 @@ static void gather_special(Workspace *w, NodeSums *t, bool after)
             const double *force = w->rows + ROW_SIZE * (ptrdiff_t)m->node_row[k], *share = force + ROW_AREA;
             int set = m->row_set[m->node_row[k]];
             double bag = set < 0 ? 0.0 : w->bag_pressure[set], load = set < 0 ? 0.0 : w->load_pressure[set];
+            if (m->has_fluid && set >= 0) bag += step_hydrostatic(w, set, w->state->x + 3 * (ptrdiff_t)node);
             for (int i = 0; i < 3; i++) {
                 double s = share[i];
                 stress[i] += force[i];
@@ -132,6 +133,7 @@ void step_special(Workspace *w)
     NodeSums *t = &w->node_sums[w->node_chunk_count];
     ptrdiff_t first = 3 * (ptrdiff_t)m->free_count, count = 3 * (ptrdiff_t)(m->moving_count - m->free_count);
     *t = (NodeSums){0};
+    if (w->jets) step_jets_sum(w);
     if (count == 0) {
         if (m->has_moving_walls) step_walls_special(w, t);
         return;
@@ -140,6 +142,7 @@ void step_special(Workspace *w)
     gather_special(w, t, false);
     push_rims(w);
     links_act(m, state, w->force);
+    if (w->jets) step_jets_react(w, t);
     loads_apply_points(&m->loads, m->curves, plan->time, state->x, w->force);
     constraints_fold_forces(&m->constraints, w->force);
     accelerate(w);
@@ -151,6 +154,7 @@ void step_special(Workspace *w)
     constraints_place_hanging(&m->constraints, state->v);
     t->reaction += loads_points_work(&m->loads, m->curves, plan->time, state->x, w->before, state->v, plan->dt_mean);
     gather_special(w, t, true);
+    if (w->jets) step_jets_count_reaction(w, t);
     count_energy(w, t);
     if (plan->emit) return;
     for (ptrdiff_t i = first; i < first + count; i++) state->x[i] += plan->dt_next * state->v[i];

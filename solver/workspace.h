@@ -5,10 +5,12 @@
 
 #include <stdbool.h>
 
+#include "airbag/ray_tree.h"
 #include "elements/kernels.h"
 #include "solver/model.h"
 #include "solver/state.h"
 #include "solver/step.h"
+#include "solver/team.h"
 
 enum {
     BILLOW_NODE_CHUNK = 256,      /* nodes in one fixed partial sum */
@@ -40,6 +42,20 @@ typedef struct GasPass {
     double compliance; /* sum of s.s / m */
     double opening;    /* sum of s.a, a the acceleration at the explicit pressure: d2V/dt2 */
 } GasPass;
+
+/* Sums over one chunk of a jet's facets. */
+typedef struct JetSums {
+    double force[3];      /* of the jet on the surface */
+    double before, after; /* power on v at n - 1/2 and n + 1/2 */
+} JetSums;
+
+/* What the step keeps of one jet; nothing of it outlives a cycle but the tree's layout, which changes no result. */
+typedef struct JetWork {
+    RayTree tree;
+    JetFrame frame;
+    bool view; /* the line of sight is looked at in this cycle */
+    int first_chunk;
+} JetWork;
 
 /* Everything that one cycle decides once for all threads. */
 typedef struct CyclePlan {
@@ -76,9 +92,12 @@ typedef struct Workspace {
     int node_chunk_count;                 /* chunks of free nodes */
     double *bag_pressure, *load_pressure; /* of each pressure set */
     double *set_volume, *set_area;
+    double *group_area;                                     /* of each group, of this cycle [L2] */
+    double *part_area, *part_blocked;                       /* of each part, and what contact covers of it [L2] */
     double *source_pressure;                                /* airbags, then segment loads */
     double *class_gravity, *class_damping, *class_velocity; /* (class_count x 3) */
     double *stagnation;                                     /* SPSF x ambient density by pressure set */
+    double *fluid_volume;                                   /* of FLUID_AND_GAS at t_n (airbag_count) */
     double *bag_volume, *bag_area;                          /* (airbag_count) */
     double *force;  /* special nodes: pressure and stress forces (node_count x 3); all nodes when emitting */
     double *newton; /* velocities of the special nodes before supports act (moving - free count, x 3) */
@@ -100,6 +119,13 @@ typedef struct Workspace {
     bool closed;                        /* energies of the last cycle are in the ledger */
     double element_step;                /* stable step of the elements before TSSFAC */
     CyclePlan plan;
+    JetWork *jets;     /* (jet_count), NULL without jets */
+    JetSums *jet_sums; /* (jet_chunk_count) */
+    int jet_chunk_count;
+    double *jet_share;      /* area vectors of the facets' corners at t_n (jet_facet_count x 4 x 3) */
+    const Curve *curves;    /* the model's, or live_curves if the model has functions */
+    Curve *live_curves;     /* the model's with the functions' values */
+    double *function_value; /* (airbag_count x function_count) */
 } Workspace;
 
 /* Loops over nodes [first, end) of the lean range, one table per instruction set. */
@@ -111,21 +137,39 @@ typedef struct NodeKernels {
 extern const NodeKernels node_kernels_v2, node_kernels_v3, node_kernels_v4;
 
 /* Phases of the cycle. */
-void step_elements(Workspace *w, int thread, int threads);          /* all threads */
-void step_gas(Workspace *w);                                        /* thread 0: sums, gas, pressures, next step */
-void step_gas_pass(Workspace *w, int thread, int threads);          /* all threads: sums of the implicit gas */
-void step_gas_implicit(Workspace *w);                               /* thread 0: pressures at the mean volume */
-void step_nodes(Workspace *w, int thread, int threads);             /* all threads: free nodes */
-void step_special(Workspace *w);                                    /* thread 0: special nodes */
-void step_walls_begin(Workspace *w);                                /* thread 0: where the walls are */
-void step_walls_special(Workspace *w, NodeSums *sums);              /* thread 0: special nodes; walls with mass */
-void step_walls_forces(Workspace *w);                               /* thread 0: sums for the writers */
-void step_tick(Workspace *w);                                       /* thread 0: the clock moves on */
-void step_emit(Workspace *w);                                       /* thread 0: full-step view to the hooks */
-void step_advance_positions(Workspace *w, int thread, int threads); /* all threads, after an emitting cycle */
-void step_close_energies(Workspace *w);                             /* thread 0: ledger at t_n */
+int step_bags(Workspace *w);                                           /* thread 0: gas of all bags to t_n; -1 failed */
+double step_fluid_volume(const Workspace *w, int bag, double level);   /* of FLUID_AND_GAS below a level, times VSCA */
+void step_fluid_settle(Workspace *w, int bag);                         /* the level of its volume */
+double step_hydrostatic(const Workspace *w, int set, const double *x); /* its pressure at a place, on a pressure set */
+double step_bags_scale(Workspace *w);                                  /* a step that resolves the gas by itself */
+void step_elements(Workspace *w, int thread, int threads);             /* all threads */
+void step_gas(Workspace *w);                                           /* thread 0: sums, gas, pressures, next step */
+void step_gas_pass(Workspace *w, int thread, int threads);             /* all threads: sums of the implicit gas */
+void step_gas_implicit(Workspace *w);                                  /* thread 0: pressures at the mean volume */
+void step_nodes(Workspace *w, int thread, int threads);                /* all threads: free nodes */
+void step_special(Workspace *w);                                       /* thread 0: special nodes */
+void step_walls_begin(Workspace *w);                                   /* thread 0: where the walls are */
+void step_walls_special(Workspace *w, NodeSums *sums);                 /* thread 0: special nodes; walls with mass */
+void step_walls_forces(Workspace *w);                                  /* thread 0: sums for the writers */
+void step_tick(Workspace *w);                                          /* thread 0: the clock moves on */
+void step_emit(Workspace *w);                                          /* thread 0: full-step view to the hooks */
+void step_advance_positions(Workspace *w, int thread, int threads);    /* all threads, after an emitting cycle */
+void step_close_energies(Workspace *w);                                /* thread 0: ledger at t_n */
 /* All threads: free nodes [first, end) of one chunk, after their node loop; before: their velocities at n - 1/2. */
 void step_walls_chunk(Workspace *w, int chunk, int first, int end, const double *before, NodeSums *sums);
+int step_functions_allocate(Workspace *w); /* -1 without memory */
+void step_functions_release(Workspace *w);
+int step_functions_evaluate(Workspace *w, int airbag); /* thread 0: values for this bag and cycle, then selected */
+void step_functions_select(Workspace *w, int airbag);  /* w->curves give this bag's values */
+void step_sensors(Workspace *w);                       /* thread 0: if the model has any */
+int step_jets_allocate(Workspace *w);                  /* -1 without memory */
+void step_jets_release(Workspace *w);
+void step_jets_prepare(Workspace *w);                       /* thread 0: frames at t_n */
+void step_jets_push(Workspace *w, int thread, Team *team);  /* all threads: pressure onto the corners */
+void step_jets_count(Workspace *w, int thread, Team *team); /* all threads: power after the step */
+void step_jets_sum(Workspace *w);                           /* thread 0: the jets' forces */
+void step_jets_react(Workspace *w, NodeSums *t);            /* thread 0: reactions onto w->force */
+void step_jets_count_reaction(Workspace *w, NodeSums *t);   /* thread 0: power after the step */
 void step_fail(Workspace *w, const char *advice, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 #endif

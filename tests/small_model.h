@@ -29,6 +29,7 @@ typedef struct SmallModel {
     Part parts[SMALL_PARTS];
     Airbag airbag;
     int bag_parts[2], history_nodes[2];
+    double part_area[2], part_blocked[2];
     RigidBody body;
     Clock clock;
     Energies energy;
@@ -84,7 +85,8 @@ static inline void small_fill_parts(SmallModel *small)
     small->parts[2] = (Part){.id = 30, .title = "nozzle", .material_kind = MATERIAL_RIGID, .rigid_body = -1, .mass = 5};
     small->body = (RigidBody){.part_id = 20, .mass = 4, .centre = {1.5, 0.5, 0}, .axes = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
     small->bag_parts[1] = 1;
-    small->airbag = (Airbag){.id = 7, .heading = "cushion", .part = small->bag_parts, .part_count = 2};
+    small->airbag =
+        (Airbag){.id = 7, .heading = "cushion", .part = small->bag_parts, .part_count = 2, .surface_parts = 2};
     small->history_nodes[0] = small->deck_node[1];
     small->history_nodes[1] = small->deck_node[6];
 }
@@ -126,6 +128,8 @@ static inline void small_create(SmallModel *small)
                            .x = small->x,
                            .v = small->v,
                            .gas = &small->gas,
+                           .part_area = small->part_area,
+                           .part_blocked = small->part_blocked,
                            .part_energy = small->part_energy,
                            .part_hourglass = small->part_hourglass,
                            .rigid = &small->rigid};
@@ -157,6 +161,10 @@ static inline void small_set_time(SmallModel *small, double time)
         small->part_hourglass[p] = p + 0.2;
         small->part_kinetic[p] = p + 0.3;
         for (int c = 0; c < 3; c++) small->part_momentum[3 * p + c] = p + c + 0.4;
+    }
+    for (int k = 0; k < 2; k++) {
+        small->part_area[k] = 1.5 - k + time;
+        small->part_blocked[k] = 0.25 * time;
     }
     /* State proper is a cycle ahead of what is to be written. */
     small->rigid = (RigidState){.x = {99, 99, 99},

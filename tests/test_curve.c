@@ -94,12 +94,46 @@ static void test_next_corner(void **state)
     assert_true(curve_next_corner(&single, 0.0) == 3.0 && curve_next_corner(&single, 3.0) == INFINITY);
 }
 
+/* A natural cubic spline: meets its points, slopes are continuous, no bend at the ends, integral and slope are those of
+ * its values; three points in closed form: through (0,0), (1,1), (2,0) it is 1.5 x - 0.5 x^3 on the left. */
+static void test_spline(void **state)
+{
+    (void)state;
+    double x[5] = {0, 1, 2, 3.5, 4}, y[5] = {0, 1, 0, 2, -1}, area[5], bend[5], work[5];
+    Curve three = {.id = 1, .count = 3, .x = x, .y = y, .area = area, .bend = bend};
+    curve_fill_spline(&three, work);
+    for (double t = 0; t <= 1.0; t += 0.125) {
+        assert_near(curve_value(&three, t), 1.5 * t - 0.5 * t * t * t, 1e-15);
+        assert_near(curve_slope(&three, t), t < 1 ? 1.5 - 1.5 * t * t : 0.0, 1e-14);
+        assert_near(curve_integral(&three, 0.0, t), 0.75 * t * t - 0.125 * t * t * t * t, 1e-15);
+    }
+    assert_near(curve_integral(&three, -1.0, 3.0), 1.25, 1e-14);
+    Curve five = {.id = 1, .count = 5, .x = x, .y = y, .area = area, .bend = bend};
+    curve_fill_spline(&five, work);
+    assert_true(bend[0] == 0.0 && bend[4] == 0.0);
+    double sum = 0.0;
+    for (int i = 0; i < 5; i++) {
+        assert_near(curve_value(&five, x[i]), y[i], 1e-15);
+        if (i > 0 && i < 4) assert_near(curve_slope(&five, x[i] - 1e-9), curve_slope(&five, x[i]), 1e-7);
+    }
+    for (int i = 0; i < 400000; i++) {
+        double t = (i + 0.5) * 1e-5;
+        sum += curve_value(&five, t) * 1e-5;
+        if (i % 1000 == 7)
+            assert_near((curve_value(&five, t + 1e-5) - curve_value(&five, t - 1e-5)) / 2e-5, curve_slope(&five, t),
+                        1e-6);
+    }
+    assert_near(sum, curve_integral(&five, 0.0, 4.0), 1e-8);
+    assert_near(curve_integral(&five, 0.3, 3.7), curve_integral(&five, 0.3, 2.2) + curve_integral(&five, 2.2, 3.7),
+                1e-14);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_value),       cmocka_unit_test(test_slope),
         cmocka_unit_test(test_integral),    cmocka_unit_test(test_integral_adds_up),
-        cmocka_unit_test(test_next_corner),
+        cmocka_unit_test(test_next_corner), cmocka_unit_test(test_spline),
     };
     return cmocka_run_group_tests(tests, fill_areas, NULL);
 }

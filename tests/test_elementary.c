@@ -161,11 +161,35 @@ static void test_sin_cos(void **state)
     assert_true(isnan(elementary_sin(NAN)) && isnan(elementary_cos(INFINITY)) && isnan(elementary_sin(2e6)));
 }
 
+static void test_derived(void **state)
+{
+    (void)state;
+    scan("atan", elementary_atan, atanl, -1.2, 1.2, 1.5);
+    scan("atan", elementary_atan, atanl, -50.0, 50.0, 1.5);
+    scan("tan", elementary_tan, tanl, -1.5, 1.5, 3.0);
+    scan("asin", elementary_asin, asinl, -1.0, 1.0, 3.0);
+    scan("acos", elementary_acos, acosl, -1.0, 1.0, 3.0);
+    scan("sinh", elementary_sinh, sinhl, -0.5, 0.5, 3.0);
+    scan("sinh", elementary_sinh, sinhl, -700.0, 700.0, 5.0);
+    scan("cosh", elementary_cosh, coshl, -700.0, 700.0, 5.0);
+    scan("tanh", elementary_tanh, tanhl, -3.0, 3.0, 5.0);
+    scan("asinh", elementary_asinh, asinhl, -1e3, 1e3, 4.0);
+    scan("acosh", elementary_acosh, acoshl, 1.0, 1e3, 4.0);
+    scan("atanh", elementary_atanh, atanhl, -0.999, 0.999, 4.0);
+    scan("log10", elementary_log10, log10l, 0.0, 1e6, 3.0);
+    assert_true(elementary_log10(1e15) == 15.0 && elementary_log10(1e-7) == -7.0);
+    const double quarter = 0.78539816339744830962, turn = 3.14159265358979323846;
+    assert_true(elementary_atan2(1.0, 1.0) == quarter && elementary_atan2(-1.0, 1.0) == -quarter);
+    assert_true(elementary_atan2(0.0, -1.0) == turn && elementary_atan2(0.0, 0.0) == 0.0);
+    assert_true(fabs(elementary_atan2(2.0, -2.0) - 3.0 * quarter) < 1e-15);
+    assert_true(isnan(elementary_asin(1.1)) && isnan(elementary_acosh(0.5)) && isnan(elementary_atan2(NAN, 1.0)));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_exp),         cmocka_unit_test(test_log),     cmocka_unit_test(test_pow),
-        cmocka_unit_test(test_pow_special), cmocka_unit_test(test_sin_cos),
+        cmocka_unit_test(test_pow_special), cmocka_unit_test(test_sin_cos), cmocka_unit_test(test_derived),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "tests/gas_case.h"
 
 #include "airbag/gas_law.h"
+#include "airbag/gas_pop.h"
 #include "airbag/gas_vent.h"
 
 /* B1: p V^gamma at the table's volumes, in steps of any size; the work is the table's; the cycle closes. */
@@ -209,11 +210,11 @@ static void test_orifice_table(void **unused)
     static const double argon[][2] = {
         {1.0, 0.0},       {1.001, 18.1352318}, {1.01, 57.3742163},       {1.1, 182.180708},
         {1.5, 412.61506}, {2.0, 588.736515},   {2.05282082, 604.487345}, {4.0, 1177.86675}};
-    GasLaw law = {2.5 * CASE_R, 0.0, CASE_R};
+    GasLaw law = {.c0 = 2.5 * CASE_R, .r = CASE_R};
     for (int i = 0; i < 12; i++)
         assert_relative(gas_orifice_flux(&law, 1.0, 101325.0, 101325.0 * air[i][0], 300.0), air[i][1], 3e-9);
     double r = 8.314462618 / 0.039948;
-    GasLaw noble = {r / 0.6667, 0.0, r};
+    GasLaw noble = {.c0 = r / 0.6667, .r = r};
     for (int i = 0; i < 8; i++)
         assert_relative(gas_orifice_flux(&noble, 1.0, 101325.0, 101325.0 * argon[i][0], 300.0), argon[i][1], 3e-9);
     for (int i = 1; i < 400; i++) { /* against the formula as the keyword manual writes it, and no flow inwards */
@@ -254,14 +255,96 @@ static void test_ledger(void **unused)
     }
 }
 
+/* B14: the inflator's chamber, at steps from a microsecond to a millisecond; energy of bag and chamber is that
+ * released. */
+static void test_inflator(void **unused)
+{
+    (void)unused;
+    static const double table[][7] = {{0.002, 6327380.9, 1294.3106, 0.50329581, 105987.32, 307.3797, 0.069704632},
+                                      {0.005, 13479993, 1281.3494, 1.0776419, 127557.29, 357.57108, 0.072115029},
+                                      {0.01, 21445431, 1222.4448, 1.755249, 189877.78, 483.93944, 0.079316951},
+                                      {0.02, 29536842, 1132.0826, 2.5121386, 366781.85, 733.17537, 0.10113066},
+                                      {0.03, 33056635, 1078.0587, 2.8810848, 574163.39, 904.66054, 0.1283018},
+                                      {0.04, 13256422, 830.35104, 1.3164793, 706164.81, 963.83537, 0.14811059},
+                                      {0.06, 2863242.1, 535.91928, 0.35393782, 775452.67, 965.12278, 0.16242603}};
+    static const double steps[] = {1e-6, 2e-4, 1e-3};
+    for (int k = 0; k < 3; k++) {
+        GasCase c;
+        const double r = 8.314462618 / 0.0280134;
+        case_air(&c, 0.06, 296.15, 101325.0);
+        c.gas.cv = 2.5 * r, c.gas.cp = 3.5 * r;
+        c.gas.inflator = (InflatorChamber){.coefficient = 0.9,
+                                           .area = 8e-5,
+                                           .volume = 0.4e-3,
+                                           .density = 250.0, /* 0.1 kg */
+                                           .temperature = 1000.0,
+                                           .burn_curve = case_curve(&c, 2, (double[]){0, 0, 0.03, 1})};
+        case_start(&c);
+        double mass = c.state.inflator_mass, energy = c.state.inflator_energy + c.state.energy, worst = 0.0;
+        for (int row = 0; row < 7; row++) {
+            case_run(&c, table[row][0], steps[k]);
+            const GasState *s = &c.state;
+            double pi = s->inflator_energy * 0.4 / 0.4e-3, ti = s->inflator_energy / (s->inflator_mass * c.gas.cv);
+            double values[6] = {pi, ti, s->mass_flow_in, s->pressure, s->temperature, s->mass};
+            for (int i = 0; i < 6; i++)
+                if (i != 2 || k == 0) worst = fmax(worst, fabs(values[i] / table[row][i + 1] - 1.0));
+        }
+        print_message("B14: dt %g, off by %.2g\n", steps[k], worst);
+        assert_true(worst < 1e-3);
+        assert_relative(c.state.inflator_mass + c.state.mass_in, mass + 0.1, 1e-12);
+        assert_relative(c.state.inflator_energy + c.state.energy, energy + 0.1 * 3.5 * r * 1000.0, 1e-12);
+        case_run(&c, 2.0, 1e-3); /* it empties to the bag's pressure and stays there */
+        assert_relative(c.state.inflator_energy * 0.4 / 0.4e-3, c.state.pressure, 1e-6);
+    }
+}
+
+/* The exits open TDP after PPOP was reached, or TDA after the cumulated time of an acceleration, whichever is first. */
+static void test_pop_criteria(void **unused)
+{
+    (void)unused;
+    GasCase c;
+    case_air(&c, 0.06, 300.0, 101325.0);
+    c.gas.vent_coefficient = 1.0, c.gas.vent_area = 1e-3;
+    c.gas.pop_pressure = 1000.0, c.gas.pop.delay = 0.01;
+    case_start(&c);
+    c.volume = 0.05;
+    case_run(&c, 0.0095, 5e-4);
+    assert_true(c.state.mass_out == 0.0);
+    case_run(&c, 0.012, 5e-4);
+    assert_true(c.state.mass_out > 0.0);
+    c.gas.pop_pressure = 0.0; /* then only the delay counts */
+    c.volume = 0.06;
+    case_start(&c);
+    assert_true(c.state.opened == 0.0);
+    case_run(&c, 0.011, 5e-4);
+    assert_true(c.state.opened == 1.0);
+    static const double limits[4][4] = {{5, 0, 0, 0}, {0, 5, 0, 0}, {0, 0, 5, 0}, {0, 0, 0, 8}};
+    for (int k = 0; k < 4; k++) {
+        for (int j = 0; j < 3; j++) c.gas.pop.acceleration[j] = limits[k][j];
+        c.gas.pop.magnitude = limits[k][3];
+        c.gas.pop.duration = 0.002, c.gas.pop.acceleration_delay = 0.003;
+        case_start(&c);
+        assert_true(c.state.opened == 0.0 && gas_pops_by_acceleration(&c.gas));
+        for (int i = 0; i < 20; i++) {
+            double a[3] = {0}, t = 1e-3 * (i + 1);
+            a[k < 3 ? k : 0] = i % 3 == 0 ? (k < 3 ? -6 : 9) : 4; /* beyond in steps 0, 3, ...: not continuous */
+            if (k < 3) a[(k + 1) % 3] = 100;
+            gas_sense_pop(&c.gas, a, t, 1e-3, &c.state);
+            gas_check_pop(&c.gas, t, &c.state);
+            assert_true((c.state.opened > 0.0) == (i >= 6)); /* 2 ms at t = 4 ms, 3 ms later */
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_adiabatic), cmocka_unit_test(test_adiabatic_drift),
-        cmocka_unit_test(test_blowdown),  cmocka_unit_test(test_blowdown_end),
-        cmocka_unit_test(test_tank),      cmocka_unit_test(test_mass_flow_exact),
-        cmocka_unit_test(test_heat_loss), cmocka_unit_test(test_orifice_table),
-        cmocka_unit_test(test_ledger),
+        cmocka_unit_test(test_adiabatic),    cmocka_unit_test(test_adiabatic_drift),
+        cmocka_unit_test(test_blowdown),     cmocka_unit_test(test_blowdown_end),
+        cmocka_unit_test(test_tank),         cmocka_unit_test(test_mass_flow_exact),
+        cmocka_unit_test(test_heat_loss),    cmocka_unit_test(test_orifice_table),
+        cmocka_unit_test(test_ledger),       cmocka_unit_test(test_inflator),
+        cmocka_unit_test(test_pop_criteria),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -100,9 +100,9 @@ static void test_unknown_keywords(void **state)
     assert_one_error("*PART_CONTACT\nx\n         1\n", 1, "*PART_CONTACT", "the option CONTACT of *PART is not read");
     assert_one_error("*ELEMENT_SHELL_OFFSET\n       5       1       1       2       3       4\n", 1,
                      "*ELEMENT_SHELL_OFFSET", "the option OFFSET of *ELEMENT_SHELL is not read");
-    assert_one_error("*AIRBAG_WANG_NEFSKE_JETTING_ID\n         1\n", 1, "*AIRBAG_WANG_NEFSKE_JETTING_ID",
-                     "the option JETTING_ID of *AIRBAG_WANG_NEFSKE is not read");
-    assert_one_error("*AIRBAG_HYBRID\n         1\n", 1, "*AIRBAG_HYBRID", "is not read by billow");
+    assert_one_error("*AIRBAG_HYBRID_JETTING_ID\n         1\n", 1, "*AIRBAG_HYBRID_JETTING_ID",
+                     "the option JETTING_ID of *AIRBAG_HYBRID is not read");
+    assert_one_error("*AIRBAG_PARTICLE\n         1\n", 1, "*AIRBAG_PARTICLE", "is not read by billow");
 }
 
 static void test_refused_features(void **state)
@@ -119,8 +119,8 @@ static void test_refused_features(void **state)
         int line;
         const char *part;
     } cases[] = {
-        {{"4", "1", "0", "0", "0"}, 2, "RBID"},
-        {{"0", "1", "-3.0", "0", "0"}, 4, "A23"},
+        {{"0", "-1", "0", "0", "0"}, 3, "LCMT"},
+        {{"0", "1", "-3.5", "0", "0"}, 4, "A23"},
         {{"0", "0", "0", "0", "0.5"}, 6, "IOC"},
         {{"0", "1", "0", "9", "0"}, 5, "OPT is 9"},
     };
@@ -130,6 +130,9 @@ static void test_refused_features(void **state)
         snprintf(text, sizeof text, bag, v[0], v[1], v[2], v[3], v[4]);
         assert_one_error(text, cases[i].line, "*AIRBAG_WANG_NEFSKE", cases[i].part);
     }
+    assert_one_error("*AIRBAG_WANG_NEFSKE_JETTING\n1,1\n896.,1204.,3600.,0,0\n0,0\n.1,1.2E-9,1.,0,0,0,0\n"
+                     "1.,1.,1.,1.,600.,3\n0,0,0,0,0,1.,.3,1.\n0,0,0,0,0,0,0,0\n",
+                     6, "*AIRBAG_WANG_NEFSKE_JETTING", "a jet of the inflator of card 6");
     assert_one_error(
         "*MAT_FABRIC\n         1    1.0E-4    2.0E+6\n\n                                                          14\n"
         "\n\n         1         2\n",
@@ -155,27 +158,23 @@ static void test_real_ids(void **state)
                      2, "*INITIAL_VELOCITY_GENERATION", "NZ is 2.5");
 }
 
-/* OPT with leaking fabric is refused; without any it is a warning. */
+/* FVOPT out of its range, and curve ids that are none. */
 static void test_fabric_leakage(void **state)
 {
     (void)state;
-    static const char deck[] = "*AIRBAG_WANG_NEFSKE\n"
-                               "         1         1\n"
-                               "     896.0    1204.0    3600.0         0         1\n"
-                               "\n"
-                               "     0.1E0    1.2E-9       1.0         0       0.0       0.0         1\n"
-                               "\n"
-                               "*MAT_FABRIC\n"
+    static const char deck[] = "*MAT_FABRIC\n"
                                "         1    1.0E-4    2.0E+6\n"
                                "\n"
-                               "       0.0       1.0       %s\n";
+                               "       0.0%10s       1.0       0.0       0.0         0%10s\n";
     char text[500];
-    snprintf(text, sizeof text, deck, "0.5");
-    assert_one_error(text, 5, "*AIRBAG_WANG_NEFSKE", "FLC and FAC of material 1");
-    snprintf(text, sizeof text, deck, "0.0");
-    KeywordCase c = read_case(text);
-    assert_int_equal(c.status, 0);
-    assert_int_equal(c.g.warnings, 1);
+    snprintf(text, sizeof text, deck, "0.5", "9.0");
+    assert_one_error(text, 4, "*MAT_FABRIC", "FVOPT is 9");
+    snprintf(text, sizeof text, deck, "-1.5", "1.0");
+    assert_one_error(text, 4, "*MAT_FABRIC", "FLC is -1.5");
+    snprintf(text, sizeof text, deck, "-15", "1.0");
+    KeywordCase c = read_fine(text);
+    assert_float_equal(c.d.materials.items[0].fabric.flc, -15, 0);
+    assert_float_equal(c.d.materials.items[0].fabric.fvopt, 1, 0);
     close_case(&c);
 }
 

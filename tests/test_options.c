@@ -9,7 +9,7 @@
 
 #include "solver/options.h"
 
-enum { MOST_WORDS = 16 };
+enum { MOST_WORDS = 24 };
 
 /* Splits line at blanks (no quoting) and parses it as the words behind "billow". */
 static int parse(const char *line, Options *options)
@@ -36,9 +36,10 @@ static void test_run_spelling(void **state)
     assert_true(options.build.end_time == 0.0);
 
     assert_int_equal(parse("run -o out -j 4 b.k --end-time 2.5e-2 --restart out/r --quiet --one-point-quads "
-                           "--caps-push-rim --energy-error-limit 0.3",
+                           "--caps-push-rim --energy-error-limit 0.3 --sensor-library ./s.so",
                            &options),
                      0);
+    assert_string_equal(options.build.sensor_library, "./s.so");
     assert_string_equal(options.directory, "out");
     assert_int_equal(options.threads, 4);
     assert_string_equal(options.deck, "b.k");

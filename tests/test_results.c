@@ -101,29 +101,14 @@ static void test_fixed_body_and_areas(void **unused)
     free(text);
 }
 
-/* Half the cross product of the diagonals (p - q) and (r - s) of deck nodes. */
-static double warped_area(int p, int q, int r, int s)
-{
-    double d[2][3];
-    const int nodes[4] = {p, q, r, s};
-    for (int i = 0; i < 6; i++)
-        d[i / 3][i % 3] = small.x[3 * small.deck_node[nodes[i / 3 * 2]] + i % 3] -
-                          small.x[3 * small.deck_node[nodes[i / 3 * 2 + 1]] + i % 3];
-    double n[3] = {d[0][1] * d[1][2] - d[0][2] * d[1][1], d[0][2] * d[1][0] - d[0][0] * d[1][2],
-                   d[0][0] * d[1][1] - d[0][1] * d[1][0]};
-    return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-}
-
-static void test_deformed_areas(void **unused)
+/* What contact covers is told from the rest; the measuring is test_airbag_leakage's. */
+static void test_blocked_areas(void **unused)
 {
     (void)unused;
     const double times[1] = {0.5};
-    double area = 0;
     write_run(false, 0, times, 1);
     char *text = read_whole("abstat_parts.csv");
-    assert_int_equal(sscanf(strstr(text, "\n0.5,7,10,"), "\n0.5,7,10,%lf,0,0", &area), 1);
-    assert_true(fabs(area - (warped_area(2, 0, 3, 1) + warped_area(4, 1, 2, 1))) < 1e-14);
-    assert_true(area > 1.6);
+    assert_non_null(strstr(text, "\n0.5,7,10,1.875,0.125,0\n0.5,7,20,0.875,0.125,0\n"));
     free(text);
 }
 
@@ -196,7 +181,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_energy_and_gas_columns, setup, teardown),
         cmocka_unit_test_setup_teardown(test_motion_columns, setup, teardown),
         cmocka_unit_test_setup_teardown(test_fixed_body_and_areas, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_deformed_areas, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_blocked_areas, setup, teardown),
         cmocka_unit_test_setup_teardown(test_ascii_layouts, setup, teardown),
         cmocka_unit_test_setup_teardown(test_ascii_columns_stay_apart, setup, teardown),
     };

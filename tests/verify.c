@@ -67,6 +67,7 @@ static void record_sample(VerifyRun *run, const Model *model, const State *state
         sample->mass = gas->mass;
         sample->area = gas->area;
         sample->mass_flow_out = gas->mass_flow_out;
+        sample->applied = gas->applied;
     }
     size_t node = 3 * (size_t)model->deck_node[run->options.node];
     memcpy(sample->x, view->x + node, sizeof sample->x);

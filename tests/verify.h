@@ -15,6 +15,7 @@
 typedef struct VerifySample {
     double time, step, element_step;
     double volume, pressure, temperature, mass, area, mass_flow_out; /* of the watched airbag */
+    double applied;                                                  /* what its walls feel */
     double x[3], v[3], a[3], f[3];                                   /* of the watched node */
     double kinetic, internal, external;
     double held, given; /* both sides of the energy balance */

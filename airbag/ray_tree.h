@@ -1,0 +1,40 @@
+/* Tree of boxes over facets: does anything lie between two points? The answer does not depend on how the tree was
+ * built, only the time does. */
+#ifndef BILLOW_RAY_TREE_H
+#define BILLOW_RAY_TREE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Boxes in depth-first order: the first child of box i is i + 1, the second starts where the first's next points. */
+typedef struct RayBox {
+    float low[3], high[3]; /* rounded outwards: half a cache line a box */
+    int32_t next;          /* box to go on with when this one is missed */
+    int32_t facets;        /* leaf: its facets are order[facets / 8 ..], facets % 8 of them; inner box: 0 */
+} RayBox;
+
+typedef struct RayTree {
+    int facet_count, box_count;
+    const int32_t *node; /* the caller's facets (facet_count x 4), triangles repeat the third node */
+    int32_t *order;      /* facets by leaf (facet_count) */
+    RayBox *box;         /* (2 x facet_count) */
+    double *middle;      /* centroids while building (facet_count x 3) */
+    double built_size;   /* surface of all boxes over that of the root when it was built */
+} RayTree;
+
+/* Allocates for facet_count facets whose nodes must outlive the tree; 0, or -1 without memory. */
+int ray_tree_create(RayTree *tree, int facet_count, const int32_t *node);
+void ray_tree_free(RayTree *tree);
+
+/* Builds the boxes at positions x (.. x 3) by halving at the median of the longest axis. O(n log n). */
+void ray_tree_build(RayTree *tree, const double *x);
+
+/* Fits the boxes to moved positions; builds anew where they have grown to twice the surface. O(n). */
+void ray_tree_refit(RayTree *tree, const double *x);
+
+/* True if a facet other than skip crosses the line from a to b, at a distance of more than margin from b. A quad is
+ * taken as its two triangles at the diagonal 1-3. */
+bool ray_tree_blocked(const RayTree *tree, const double *x, const double a[3], const double b[3], int skip,
+                      double margin);
+
+#endif
