@@ -108,10 +108,14 @@ static int transfer_rows(const HdfArray *array, hsize_t first, hsize_t count, vo
     return status;
 }
 
+int hdf5_write_rows(const HdfArray *array, hsize_t first, hsize_t count, const void *data)
+{
+    return transfer_rows(array, first, count, NULL, data);
+}
+
 int hdf5_append_rows(const HdfArray *array, hsize_t first, hsize_t count, const void *data)
 {
-    if (hdf5_resize_array(array, first + count)) return -1;
-    return transfer_rows(array, first, count, NULL, data);
+    return hdf5_resize_array(array, first + count) ? -1 : hdf5_write_rows(array, first, count, data);
 }
 
 int hdf5_read_rows(const HdfArray *array, hsize_t first, hsize_t count, void *data)
@@ -126,18 +130,22 @@ int hdf5_close_array(HdfArray *array)
     return status < 0 ? -1 : 0;
 }
 
-int hdf5_write_constant(hid_t parent, const char *name, hid_t file_type, hid_t type, hsize_t count, const void *data)
+int hdf5_create_constant(hid_t parent, const char *name, hid_t file_type, hid_t type, hsize_t count, HdfArray *array)
 {
-    int status = -1;
+    *array = (HdfArray){-1, type, 1};
     hid_t space = H5Screate_simple(1, &count, NULL);
     if (space < 0) return -1;
-    hid_t dataset = H5Dcreate2(parent, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    if (dataset >= 0) {
-        status = H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0 ? -1 : 0;
-        if (H5Dclose(dataset) < 0) status = -1;
-    }
+    array->dataset = H5Dcreate2(parent, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     H5Sclose(space);
-    return status;
+    return array->dataset < 0 ? -1 : 0;
+}
+
+int hdf5_write_constant(hid_t parent, const char *name, hid_t file_type, hid_t type, hsize_t count, const void *data)
+{
+    HdfArray array;
+    if (hdf5_create_constant(parent, name, file_type, type, count, &array)) return -1;
+    int status = hdf5_write_rows(&array, 0, count, data);
+    return hdf5_close_array(&array) ? -1 : status;
 }
 
 int hdf5_write_integers(hid_t object, const char *name, int count, const long long *values)

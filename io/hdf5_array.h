@@ -31,12 +31,16 @@ int hdf5_resize_array(const HdfArray *array, hsize_t rows);
 /* Makes the array first + count rows long and writes the last count rows from data. */
 int hdf5_append_rows(const HdfArray *array, hsize_t first, hsize_t count, const void *data);
 
+/* Writes count of the rows the array already has, from first. */
+int hdf5_write_rows(const HdfArray *array, hsize_t first, hsize_t count, const void *data);
+
 /* Reads count rows from first. */
 int hdf5_read_rows(const HdfArray *array, hsize_t first, hsize_t count, void *data);
 
 int hdf5_close_array(HdfArray *array);
 
-/* A dataset that never changes: rank 1, count values. */
+/* A dataset that never changes: rank 1, count values, written whole or by hdf5_write_rows in pieces. */
+int hdf5_create_constant(hid_t parent, const char *name, hid_t file_type, hid_t type, hsize_t count, HdfArray *array);
 int hdf5_write_constant(hid_t parent, const char *name, hid_t file_type, hid_t type, hsize_t count, const void *data);
 
 /* Attributes: count integers (a scalar for count 0), a fixed-length ASCII string. write replaces the value of an

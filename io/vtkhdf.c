@@ -2,6 +2,8 @@
  *
  * Every state appends node_count rows to the point arrays and element_count rows to the cell arrays. The Steps group
  * says per state where its rows begin; an offset of 0 for every state marks what never changes: topology, ids, parts.
+ * Rows pass through one small buffer in pieces, so that the memory a run holds for its results does not grow with the
+ * mesh.
  */
 #include <errno.h>
 #include <stdio.h>
@@ -12,6 +14,7 @@
 #include "io/vtkhdf_mesh.h"
 #include "solver/memory.h"
 
+enum { PIECE_ROWS = 8192 }; /* staged together; divides CHUNK_ROWS_LIMIT */
 enum { CHUNK_ROWS_LIMIT = 1 << 20, STEP_CHUNK = 128 };
 enum { METADATA_RESERVE = 1 << 18 }; /* bytes: more than the index nodes that one state can add to all arrays */
 
@@ -71,9 +74,10 @@ VtkHdf *vtkhdf_allocate(const char *path, const Model *model, Diagnostics *diagn
     grid->points = (hsize_t)model->node_count;
     grid->cells = (hsize_t)model->element_count;
     grid->path = memory_alloc(strlen(path) + 1, 1);
-    grid->point_rows = memory_alloc((size_t)grid->points * 3 + 1, sizeof(double));
-    grid->cell_rows = memory_alloc((size_t)grid->cells * 13 + 1, sizeof(float));
-    if (!grid->path || !grid->point_rows || !grid->cell_rows) {
+    int most = model->node_count > model->element_count ? model->node_count : model->element_count;
+    grid->piece = most > PIECE_ROWS ? PIECE_ROWS : most + 1;
+    grid->rows = memory_alloc((size_t)grid->piece * 13, sizeof(float));
+    if (!grid->path || !grid->rows) {
         vtkhdf_close(grid);
         return NULL;
     }
@@ -124,7 +128,7 @@ static int create_groups(VtkHdf *grid)
     return grid->steps < 0 || hdf5_write_integers(grid->steps, "NSteps", 0, &no_states) ? -1 : 0;
 }
 
-/* One state is one chunk, so that it is written in one piece. */
+/* One state is one chunk, so that its rows lie together in the file. */
 static int create_arrays(VtkHdf *grid)
 {
     for (int i = 0; i < DATA_COUNT; i++) {
@@ -171,46 +175,85 @@ double vtkhdf_state_time(const VtkHdf *grid, int index)
     return grid->times[index];
 }
 
-/* Appends the rows of one array of the coming state. */
-static int append_data(VtkHdf *grid, DataArray which, const void *rows)
+/* Makes room in every array for the rows of the coming state. */
+static int extend_arrays(VtkHdf *grid)
+{
+    for (int i = 0; i < DATA_COUNT; i++)
+        if (hdf5_resize_array(&grid->data[i],
+                              (grid->count + 1) * (vtkhdf_data[i].per_cell ? grid->cells : grid->points)))
+            return -1;
+    return 0;
+}
+
+/* Writes count rows of one array, from row first of the coming state. */
+static int write_piece(VtkHdf *grid, DataArray which, int first, int count, const void *rows)
 {
     hsize_t per_state = vtkhdf_data[which].per_cell ? grid->cells : grid->points;
-    return hdf5_append_rows(&grid->data[which], grid->count * per_state, per_state, rows);
+    return hdf5_write_rows(&grid->data[which], grid->count * per_state + (hsize_t)first, (hsize_t)count, rows);
 }
 
-/* Positions, velocities and displacements in deck order. */
-static int append_point_data(VtkHdf *grid, const Model *model, const double *x, const double *v)
+/* Rows of the piece that begins at first of total rows. */
+static int piece_length(const VtkHdf *grid, int first, int total)
 {
-    const double *sources[2] = {x, v};
-    for (int s = 0; s < 2; s++) {
-        for (int i = 0; i < model->node_count; i++)
+    return total - first < grid->piece ? total - first : grid->piece;
+}
+
+/* Positions or velocities in deck order. */
+static int write_vectors(VtkHdf *grid, const Model *model, DataArray which, const double *source)
+{
+    for (int first = 0; first < model->node_count; first += grid->piece) {
+        int count = piece_length(grid, first, model->node_count);
+        for (int i = 0; i < count; i++)
             for (int c = 0; c < 3; c++)
-                grid->point_rows[3 * (ptrdiff_t)i + c] = sources[s][3 * (ptrdiff_t)model->deck_node[i] + c];
-        if (append_data(grid, s == 0 ? DATA_POINTS : DATA_VELOCITY, grid->point_rows)) return -1;
+                grid->rows[3 * (ptrdiff_t)i + c] = source[3 * (ptrdiff_t)model->deck_node[first + i] + c];
+        if (write_piece(grid, which, first, count, grid->rows)) return -1;
     }
-    float *displacement = (float *)(void *)grid->point_rows;
-    for (int i = 0; i < model->node_count; i++) {
-        ptrdiff_t node = 3 * (ptrdiff_t)model->deck_node[i];
-        for (int c = 0; c < 3; c++)
-            displacement[3 * (ptrdiff_t)i + c] = (float)(x[node + c] - model->initial[node + c]);
-    }
-    return append_data(grid, DATA_DISPLACEMENT, displacement);
+    return 0;
 }
 
-static int append_cell_data(VtkHdf *grid, const Model *model, const double *x)
+static int write_displacements(VtkHdf *grid, const Model *model, const double *x)
 {
-    float *stress = grid->cell_rows, *strain = stress + 6 * grid->cells, *thickness = strain + 6 * grid->cells;
-    for (int e = 0; e < model->element_count; e++) {
-        ElementResult result;
-        membrane_result(model, x, e, &result);
-        for (int c = 0; c < 6; c++) {
-            stress[6 * (ptrdiff_t)e + c] = (float)result.stress[c];
-            strain[6 * (ptrdiff_t)e + c] = (float)result.strain[c];
+    float *displacement = (float *)(void *)grid->rows;
+    for (int first = 0; first < model->node_count; first += grid->piece) {
+        int count = piece_length(grid, first, model->node_count);
+        for (int i = 0; i < count; i++) {
+            ptrdiff_t node = 3 * (ptrdiff_t)model->deck_node[first + i];
+            for (int c = 0; c < 3; c++)
+                displacement[3 * (ptrdiff_t)i + c] = (float)(x[node + c] - model->initial[node + c]);
         }
-        thickness[e] = (float)result.thickness;
+        if (write_piece(grid, DATA_DISPLACEMENT, first, count, displacement)) return -1;
     }
-    return append_data(grid, DATA_STRESS, stress) || append_data(grid, DATA_STRAIN, strain) ||
-                   append_data(grid, DATA_THICKNESS, thickness)
+    return 0;
+}
+
+static int write_cell_data(VtkHdf *grid, const Model *model, const double *x)
+{
+    float *stress = (float *)(void *)grid->rows, *strain = stress + 6 * (ptrdiff_t)grid->piece,
+          *thickness = strain + 6 * (ptrdiff_t)grid->piece;
+    for (int first = 0; first < model->element_count; first += grid->piece) {
+        int count = piece_length(grid, first, model->element_count);
+        for (int e = 0; e < count; e++) {
+            ElementResult result;
+            membrane_result(model, x, first + e, &result);
+            for (int c = 0; c < 6; c++) {
+                stress[6 * (ptrdiff_t)e + c] = (float)result.stress[c];
+                strain[6 * (ptrdiff_t)e + c] = (float)result.strain[c];
+            }
+            thickness[e] = (float)result.thickness;
+        }
+        if (write_piece(grid, DATA_STRESS, first, count, stress) ||
+            write_piece(grid, DATA_STRAIN, first, count, strain) ||
+            write_piece(grid, DATA_THICKNESS, first, count, thickness))
+            return -1;
+    }
+    return 0;
+}
+
+static int append_rows(VtkHdf *grid, const Model *model, const double *x, const double *v)
+{
+    return extend_arrays(grid) || write_vectors(grid, model, DATA_POINTS, x) ||
+                   write_vectors(grid, model, DATA_VELOCITY, v) || write_displacements(grid, model, x) ||
+                   write_cell_data(grid, model, x)
                ? -1
                : 0;
 }
@@ -239,7 +282,7 @@ int vtkhdf_write_state(VtkHdf *grid, const Model *model, double time, const doub
         return vtkhdf_report_memory(grid->diagnostics, grid->path);
     errno = 0;
     if (vtkhdf_reserve_space(grid, state_bytes(grid))) return vtkhdf_report_failure(grid, "write");
-    if (append_point_data(grid, model, x, v) || append_cell_data(grid, model, x) || append_step(grid, time)) {
+    if (append_rows(grid, model, x, v) || append_step(grid, time)) {
         grid->broken = true;
         return vtkhdf_report_failure(grid, "write");
     }
@@ -269,8 +312,7 @@ int vtkhdf_close(VtkHdf *grid)
     if (status) vtkhdf_report_failure(grid, "close");
     memory_free(grid->path);
     memory_free(grid->times);
-    memory_free(grid->point_rows);
-    memory_free(grid->cell_rows);
+    memory_free(grid->rows);
     memory_free(grid);
     return status ? -1 : 0;
 }

@@ -46,8 +46,8 @@ struct VtkHdf {
     DiskSpace space;
     double *times; /* of the states in the file (count) */
     size_t count, capacity;
-    double *point_rows; /* workspace (points x 3) */
-    float *cell_rows;   /* workspace: stress, strain, thickness one after the other (cells x 13) */
+    int piece;    /* rows of a state that are staged and written together */
+    double *rows; /* workspace for one piece: doubles (piece x 3) or floats (piece x 13) */
 };
 
 /* Memory and names for a file that is not open yet; NULL without memory (reported). */

@@ -16,7 +16,7 @@
 #include "io/results.h"
 #include "tests/small_model.h"
 
-enum { VALUES = 4096 };
+enum { VALUES = 1 << 16 };
 
 static SmallModel small;
 static char folder[64], grid_path[128], xdmf_path[128];
