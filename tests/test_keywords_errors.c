@@ -261,7 +261,7 @@ static void test_landing_pad_wang_nefske(void **state)
     (void)state;
     assert_deck("landing-pad-wang-nefske",
                 "*CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE_ID *CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE_ID ",
-                7440, 7408, 1);
+                7440, 7408, 0);
 }
 
 int main(void)
