@@ -100,7 +100,7 @@ int gas_advance(const GasModel *gas, const Curve *curves, double vsca, double ps
     double volume = next_volume(state, vsca, vini, step, why);
     if (isnan(volume)) return -1;
     GasState next = *state;
-    next.mass_flow_out_vent = next.mass_flow_out_porosity = 0.0;
+    next.mass_flow_out_vent = next.mass_flow_out_porosity = next.mass_flow_inflator = 0.0;
     *why = models[gas->kind]->advance(gas, curves, step, volume, &next);
     if (!*why && !(isfinite(next.pressure) && isfinite(next.applied))) *why = "the pressure of the gas is not finite";
     if (*why) return -1;
@@ -110,6 +110,7 @@ int gas_advance(const GasModel *gas, const Curve *curves, double vsca, double ps
     next.mass_flow_out = (next.mass_out - state->counted_out) * rate;
     next.counted_in = next.mass_in;
     next.counted_out = next.mass_out;
+    next.mass_flow_inflator *= rate;
     next.mass_flow_out_vent *= rate;
     next.mass_flow_out_porosity *= rate;
     scale_applied(vsca, psca, &next);

@@ -158,7 +158,8 @@ typedef struct GasState {
     double pressure;                           /* absolute [F/L2] */
     double temperature, density, mass, energy; /* energy: internal, mass integral of cv dT [energy] */
     double mass_flow_in, mass_flow_out, mass_flow_out_vent, mass_flow_out_porosity; /* rates of the last step [M/T] */
-    double mass_in, mass_out;                                                       /* cumulated [M] */
+    double mass_flow_inflator;        /* of the last step, what the inflator alone blew in: the jet's [M/T] */
+    double mass_in, mass_out;         /* cumulated [M] */
     double counted_in, counted_out;   /* the part of them that the rates have told */
     double enthalpy_in, enthalpy_out; /* cumulated [energy] */
     double heat_out, work;            /* cumulated; work = integral of p dV done by the gas */

@@ -184,6 +184,7 @@ void gas_exchange(const GasModel *gas, GasLaw *law, const Curve *curves, double 
     state->tank_temperature = supply.temperature;
     state->inflator_mass = supply.inflator_mass;
     state->inflator_energy = supply.inflator_energy;
+    state->mass_flow_inflator += inflow.mass; /* gas_advance makes it a rate */
     gas_exchange_flow(gas, law, curves, time, span, &inflow, state);
     gas_lose_heat(gas, law, curves, time + 0.5 * span, time + span, area, state);
     update_state_of_gas(law, state);

@@ -47,6 +47,9 @@ GasInflow gas_inflator_flow(const GasModel *gas, const GasLaw *law, const Curve 
 /* A mixture's inflow between two corners of all its curves (gas_inflow_mixture.c). */
 GasInflow gas_mixture_inflow(const GasModel *gas, const Curve *curves, double begin, double end);
 
+/* Its mass flows and enthalpy flow at a time since the start of the inflow [M/T], [energy/T]. */
+GasInflow gas_mixture_rate(const GasModel *gas, const Curve *curves, double time);
+
 /* The first corner after time of the curves that feed the inflow, or +infinity. */
 double gas_inflow_next_corner(const GasModel *gas, const Curve *curves, double time);
 

@@ -80,3 +80,10 @@ GasInflow gas_mixture_inflow(const GasModel *gas, const Curve *curves, double be
     }
     return inflow;
 }
+
+GasInflow gas_mixture_rate(const GasModel *gas, const Curve *curves, double time)
+{
+    GasInflow rate = {0};
+    add_point(gas, curves, time, 1.0, &rate);
+    return rate;
+}

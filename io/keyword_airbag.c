@@ -107,7 +107,10 @@ enum {
     WANG_CARD6_SPARE,
     WANG_CARD7,
     WANG_CARD8,
-    WANG_JET_CARD
+    WANG_CARD9A,
+    WANG_CARD9B,
+    WANG_CARD10,
+    WANG_CARD11
 };
 enum { WANG_POP = AIRBAG_OPTION_ID + 1, WANG_JETTING, WANG_MULTIPLE_JETTING, WANG_CM };
 static const CardSpec wang_cards[] = {
@@ -213,13 +216,7 @@ static int check_inflator(const KeywordRead *read, const AirbagDefinition *bag)
         keyword_warning(read, bag->card3, "LCMT = 0 and no inflator on card 6: no gas flows into this bag");
         return 0;
     }
-    if (all && bag->lcbf > 0 && !bag->jet.given) return 0;
-    if (all && bag->lcbf > 0) {
-        keyword_error(read, bag->card6,
-                      "a jet of the inflator of card 6 is not read by billow " BILLOW_VERSION
-                      "; give the mass flow LCMT and its temperature");
-        return -1;
-    }
+    if (all && bag->lcbf > 0) return 0;
     keyword_error(read, bag->card6,
                   "LCMT = 0 asks for the inflator: IOC, IOA, IVOL, IRO, IT must be positive and LCBF "
                   "name the curve of the burnt fraction");
@@ -242,9 +239,16 @@ static void read_wang_nefske(KeywordRead *read)
     bag.card7 = bag.card6;
     if (bag.cv == 0.0 && keyword_card(read, WANG_CARD7, &bag, true, &bag.card7)) return;
     if (pop && keyword_card(read, WANG_CARD8, &bag, true, &bag.card8)) return;
-    if (airbag_read_jet(read, WANG_JET_CARD, keyword_option(read, WANG_JETTING),
-                        keyword_option(read, WANG_MULTIPLE_JETTING), keyword_option(read, WANG_CM), &bag))
-        return;
+    const bool multiple = keyword_option(read, WANG_MULTIPLE_JETTING);
+    const JetOptions options = {
+        .jetting = keyword_option(read, WANG_JETTING),
+        .multiple = multiple,
+        .cm = keyword_option(read, WANG_CM),
+        .shape_card = multiple ? WANG_CARD9B : WANG_CARD9A,
+        .focus_card = WANG_CARD10,
+        .react_card = WANG_CARD11,
+    };
+    if (airbag_read_jet(read, &options, &bag)) return;
     if (bag.knkdn != 0 && !bag.jet.given)
         keyword_note(read, bag.card5, "KNKDN = %d is read but not used: it applies to jetting only", bag.knkdn);
     keyword_finish(read);
@@ -286,7 +290,8 @@ static const KeywordSpec specs[] = {
          "the accelerations of RBIDP in its local axes were exceeded for TDURP in all. "
          "RBID < 0 is the built-in sensor, RBID > 0 the user's (--sensor-library); both shift the inflow: LCMT, LCBF, "
          "LCT and LCDT. LCJRV is over the angle in degrees, CA and BETA below 0 name curves over time; NODE1 and NODE2 "
-         "place the jet in place of the coordinates. A jet needs LCMT, not the inflator of card 6."},
+         "place the jet in place of the coordinates. A jet of the inflator of card 6 has the temperature of its "
+         "chamber."},
 };
 
 const KeywordFamily keyword_family_airbag = {"Airbags", specs, (int)(sizeof specs / sizeof *specs)};

@@ -1,5 +1,6 @@
 /* Airbags of mixed gases: *AIRBAG_HYBRID and *AIRBAG_HYBRID_CHEMKIN. */
 #include "io/keyword_airbag.h"
+#include "io/keyword_airbag_jet.h"
 
 #define AT(member) offsetof(AirbagDefinition, member)
 static const FieldSpec hybrid3_fields[] = {
@@ -74,7 +75,17 @@ static const FieldSpec polynomial_fields[] = {
 };
 #undef AT
 
-enum { HYBRID_CARD3 = AIRBAG_CARD_SENSED, HYBRID_CARD4, HYBRID_CARD5, HYBRID_CARD51, HYBRID_CARD52 };
+enum {
+    HYBRID_CARD3 = AIRBAG_CARD_SENSED,
+    HYBRID_CARD4,
+    HYBRID_CARD5,
+    HYBRID_CARD51,
+    HYBRID_CARD52,
+    HYBRID_CARD6,
+    HYBRID_CARD7,
+    HYBRID_CARD8
+};
+enum { HYBRID_JETTING = AIRBAG_OPTION_ID + 1, HYBRID_CM };
 static const CardSpec hybrid_cards[] = {
     AIRBAG_SENSED_CARDS,
     {"card 3", "", CARD_FIELDS(hybrid3_fields)},
@@ -82,6 +93,7 @@ static const CardSpec hybrid_cards[] = {
     {"card 5", "", CARD_FIELDS(hybrid5_fields)},
     {"card 5.1", "one for each gas", CARD_FIELDS(hybrid51_fields)},
     {"card 5.2", "after each card 5.1", CARD_FIELDS(hybrid52_fields)},
+    AIRBAG_HYBRID_JET_CARDS,
 };
 enum {
     CHEMKIN_CARD3 = AIRBAG_CARD_SENSED,
@@ -148,6 +160,13 @@ static int check_count(const KeywordRead *read, const AirbagDefinition *bag, Sou
 static void read_hybrid(KeywordRead *read)
 {
     AirbagDefinition bag = {.model = AIRBAG_HYBRID};
+    const JetOptions jet = {
+        .jetting = keyword_option(read, HYBRID_JETTING),
+        .cm = keyword_option(read, HYBRID_CM),
+        .shape_card = HYBRID_CARD6,
+        .focus_card = HYBRID_CARD7,
+        .react_card = HYBRID_CARD8,
+    };
     if (airbag_read_sensed(read, &bag)) return;
     if (keyword_card(read, HYBRID_CARD3, &bag, true, &bag.card3)) return;
     if (keyword_card(read, HYBRID_CARD4, &bag, true, &bag.card4)) return;
@@ -156,9 +175,11 @@ static void read_hybrid(KeywordRead *read)
     for (int i = 0; i < bag.ngas; i++) {
         AirbagGasDefinition *gas = &bag.gases[i];
         if (keyword_card(read, HYBRID_CARD51, gas, true, &gas->source)) return;
-        if (keyword_card(read, HYBRID_CARD52, gas, i + 1 < bag.ngas, NULL) && i + 1 < bag.ngas) return;
+        const bool needed = i + 1 < bag.ngas || jet.jetting; /* the last card may be left out */
+        if (keyword_card(read, HYBRID_CARD52, gas, needed, NULL) && needed) return;
         convert_gas(read, gas);
     }
+    if (airbag_read_jet(read, &jet, &bag)) return;
     keyword_finish(read);
     if (bag.vntopt != 0 && bag.vntopt != 1 && bag.vntopt != 2 && bag.vntopt != 10) {
         keyword_error(read, bag.card5, "VNTOPT is %d, but must be 0, 1, 2 or 10", bag.vntopt);
@@ -208,20 +229,21 @@ static void read_chemkin(KeywordRead *read)
 
 static const KeywordSpec specs[] = {
     {.name = "*AIRBAG_HYBRID",
-     .options = {"ID"},
+     .options = {"ID", "JETTING", "CM"},
      .cards = hybrid_cards,
-     .card_count = 7,
+     .card_count = sizeof hybrid_cards / sizeof *hybrid_cards,
      .read = read_hybrid,
      .remark =
          "Up to 17 gases. Negative LCIDM, LCIDT and LCIDM0 ask for a natural cubic spline through the points. FMASS "
          "draws in that share of ambient gas (of the composition INITM, at ATMOST). CC multiplies the energy in "
          "the speed of the exit flow. PVENT opens the exits for good. Outflow has the bag's composition by mass. Vents "
          "and "
-         "leakage as in WANG_NEFSKE; VNTOPT 1 and 10 count what a vent part has grown by; nothing erodes."},
+         "leakage as in WANG_NEFSKE; VNTOPT 1 and 10 count what a vent part has grown by; nothing erodes. The jet's "
+         "fields are those of WANG_NEFSKE_JETTING; its gas is the mixture that flows in, at its mixed temperature."},
     {.name = "*AIRBAG_HYBRID_CHEMKIN",
      .options = {"ID"},
      .cards = chemkin_cards,
-     .card_count = 10,
+     .card_count = sizeof chemkin_cards / sizeof *chemkin_cards,
      .read = read_chemkin,
      .remark = "Up to 17 gases. DATA = 2 takes N2, O2, AR, HE, CO2, H2O, CO, H2, NO, NO2, N2O, NH3, CH4, HCL, SO2, OH, "
                "O, H and N from a built-in table (NASA TM-4513). DATA = 1: coefficients for T, or for T/1000 as in the "

@@ -22,10 +22,15 @@ const FieldSpec airbag_jet_focus_fields[8] = {
     CARD_REAL("ANGLE", angle, USED, NONE),       CARD_INT("NODE1", node[0], USED, ID_NODE),
     CARD_INT("NODE2", node[1], USED, ID_NODE),   CARD_INT("NODE3", node[2], USED, ID_NODE),
 };
+/* HYBRID_JETTING: the fifth field is a dummy. */
+const FieldSpec airbag_jet_spare_focus_fields[8] = {
+    CARD_REAL("XSJFP", second[0], USED, LENGTH), CARD_REAL("YSJFP", second[1], USED, LENGTH),
+    CARD_REAL("ZSJFP", second[2], USED, LENGTH), CARD_INT("PSID", psid, USED, ID_SET),
+    CARD_REAL("IDUM", angle, LISTED, NONE),      CARD_INT("NODE1", node[0], USED, ID_NODE),
+    CARD_INT("NODE2", node[1], USED, ID_NODE),   CARD_INT("NODE3", node[2], USED, ID_NODE),
+};
 const FieldSpec airbag_jet_react_fields[1] = {CARD_INT("NREACT", nreact, USED, ID_NODE)};
 #undef AT
-
-enum { CONE_CARD, MULTIPLE_CARD, FOCUS_CARD, REACT_CARD };
 
 static int check_fields(KeywordRead *read, JetCards *jet)
 {
@@ -44,25 +49,25 @@ static int check_fields(KeywordRead *read, JetCards *jet)
     return 0;
 }
 
-int airbag_read_jet(KeywordRead *read, int first, bool jetting, bool multiple, bool cm, AirbagDefinition *bag)
+int airbag_read_jet(KeywordRead *read, const JetOptions *options, AirbagDefinition *bag)
 {
     JetCards *jet = &bag->jet;
-    if (jetting && multiple) {
+    if (options->jetting && options->multiple) {
         keyword_error(read, bag->source, "JETTING and MULTIPLE_JETTING exclude each other; leave one out");
         return -1;
     }
-    if (!jetting && !multiple) {
-        if (!cm) return 0;
+    if (!options->jetting && !options->multiple) {
+        if (!options->cm) return 0;
         keyword_error(read, bag->source, "CM belongs to JETTING or MULTIPLE_JETTING, which is missing");
         return -1;
     }
     jet->given = true;
-    jet->multiple = multiple;
-    jet->cm = cm;
-    if (keyword_card(read, first + (multiple ? MULTIPLE_CARD : CONE_CARD), jet, true, &jet->card9)) return -1;
-    if (keyword_card(read, first + FOCUS_CARD, jet, true, &jet->card10)) return -1;
+    jet->multiple = options->multiple;
+    jet->cm = options->cm;
+    if (keyword_card(read, options->shape_card, jet, true, &jet->card9)) return -1;
+    if (keyword_card(read, options->focus_card, jet, true, &jet->card10)) return -1;
     jet->card11 = jet->card10;
-    if (cm && keyword_card(read, first + REACT_CARD, jet, true, &jet->card11)) return -1;
+    if (jet->cm && keyword_card(read, options->react_card, jet, true, &jet->card11)) return -1;
     bool second = jet->second[0] != 0.0 || jet->second[1] != 0.0 || jet->second[2] != 0.0;
     keyword_transform_point(read, jet->focus);
     keyword_transform_point(read, jet->head);

@@ -4,11 +4,10 @@
 
 #include "io/keyword_table.h"
 
-enum { AIRBAG_JET_CARD_COUNT = 4 };
 extern const FieldSpec airbag_jet_cone_fields[8], airbag_jet_multiple_fields[8], airbag_jet_focus_fields[8],
-    airbag_jet_react_fields[1];
+    airbag_jet_spare_focus_fields[8], airbag_jet_react_fields[1];
 
-/* To stand in the list of cards, in this order. HYBRID has the same cards under other numbers. */
+/* To stand in the lists of cards, in this order. */
 #define AIRBAG_JET_CARDS                                                                                               \
     {"card 9a", "with JETTING", CARD_FIELDS(airbag_jet_cone_fields)},                                                  \
         {"card 9b", "with MULTIPLE_JETTING", CARD_FIELDS(airbag_jet_multiple_fields)},                                 \
@@ -16,9 +15,20 @@ extern const FieldSpec airbag_jet_cone_fields[8], airbag_jet_multiple_fields[8],
     {                                                                                                                  \
         "card 11", "with CM", CARD_FIELDS(airbag_jet_react_fields)                                                     \
     }
+#define AIRBAG_HYBRID_JET_CARDS                                                                                        \
+    {"card 6", "with JETTING", CARD_FIELDS(airbag_jet_cone_fields)},                                                   \
+        {"card 7", "with JETTING", CARD_FIELDS(airbag_jet_spare_focus_fields)},                                        \
+    {                                                                                                                  \
+        "card 8", "with CM", CARD_FIELDS(airbag_jet_react_fields)                                                      \
+    }
 
-/* Reads the cards of the options given into bag->jet; first: the number of card 9a in the keyword's list. Returns 0, or
- * -1 after reporting. */
-int airbag_read_jet(KeywordRead *read, int first, bool jetting, bool multiple, bool cm, AirbagDefinition *bag);
+/* Options of the keyword, and the numbers of its cards in its list. */
+typedef struct JetOptions {
+    bool jetting, multiple, cm;
+    int shape_card, focus_card, react_card; /* shape: that of the option given */
+} JetOptions;
+
+/* Reads the cards of the options given into bag->jet. Returns 0, or -1 after reporting. */
+int airbag_read_jet(KeywordRead *read, const JetOptions *options, AirbagDefinition *bag);
 
 #endif

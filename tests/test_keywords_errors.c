@@ -100,8 +100,8 @@ static void test_unknown_keywords(void **state)
     assert_one_error("*PART_CONTACT\nx\n         1\n", 1, "*PART_CONTACT", "the option CONTACT of *PART is not read");
     assert_one_error("*ELEMENT_SHELL_OFFSET\n       5       1       1       2       3       4\n", 1,
                      "*ELEMENT_SHELL_OFFSET", "the option OFFSET of *ELEMENT_SHELL is not read");
-    assert_one_error("*AIRBAG_HYBRID_JETTING_ID\n         1\n", 1, "*AIRBAG_HYBRID_JETTING_ID",
-                     "the option JETTING_ID of *AIRBAG_HYBRID is not read");
+    assert_one_error("*AIRBAG_HYBRID_POP_JETTING\n         1\n", 1, "*AIRBAG_HYBRID_POP_JETTING",
+                     "the option POP_JETTING of *AIRBAG_HYBRID is not read");
     assert_one_error("*AIRBAG_PARTICLE\n         1\n", 1, "*AIRBAG_PARTICLE", "is not read by billow");
 }
 
@@ -130,9 +130,6 @@ static void test_refused_features(void **state)
         snprintf(text, sizeof text, bag, v[0], v[1], v[2], v[3], v[4]);
         assert_one_error(text, cases[i].line, "*AIRBAG_WANG_NEFSKE", cases[i].part);
     }
-    assert_one_error("*AIRBAG_WANG_NEFSKE_JETTING\n1,1\n896.,1204.,3600.,0,0\n0,0\n.1,1.2E-9,1.,0,0,0,0\n"
-                     "1.,1.,1.,1.,600.,3\n0,0,0,0,0,1.,.3,1.\n0,0,0,0,0,0,0,0\n",
-                     6, "*AIRBAG_WANG_NEFSKE_JETTING", "a jet of the inflator of card 6");
     assert_one_error(
         "*MAT_FABRIC\n         1    1.0E-4    2.0E+6\n\n                                                          14\n"
         "\n\n         1         2\n",
