@@ -9,9 +9,8 @@
 
 /* One facet of the bag's surface. */
 typedef struct JetFacet {
-    int32_t row[4];      /* rows of corner sums of its corners (solver/model.h) */
+    int32_t row[4];      /* rows of corner sums of its corners, counted from its chunk's first */
     int8_t corner_count; /* 3 or 4 */
-    int8_t outward;      /* +1: the normal by the order of the nodes points out of the bag */
     bool target;         /* in PSID, or PSID = 0: takes the jet's pressure */
 } JetFacet;
 
@@ -37,8 +36,21 @@ typedef struct Jet {
     int chunk_count;              /* facets of one segment of elements each: no two chunks share a row */
     int *chunk_start;             /* first facet of each chunk (chunk_count + 1) */
     JetFacet *facet;              /* (facet_count) */
+    int8_t *side;                 /* +1: the normal by the order of the nodes points out of the bag (facet_count) */
     int32_t *node;                /* nodes of the facets (facet_count x 4), triangles repeat the third */
+    int row_count, first_weight;  /* rows of corner sums of all chunks; first: in State.jet_weight */
+    int *segment_chunk;           /* chunk of each segment of elements, -1 none (segment_count) */
+    int *chunk_row;               /* first row of each chunk in the model's table (chunk_count) */
+    int *chunk_weight;            /* place of that row among the jet's (chunk_count + 1) */
+    int8_t *chunk_sign;           /* +1: the rows' area vectors point out of the bag (chunk_count) */
+    int32_t *row_node;            /* node of each of the jet's rows (row_count) */
 } Jet;
+
+/* What acts on one row of corner sums, in the State buffer (J12). */
+typedef struct JetWeight {
+    double shape;  /* the jet's pressure there is strength times it */
+    double hidden; /* share of the row's area that the jet does not see, if KNKDN asks for it */
+} JetWeight;
 
 /* Plain data in the State buffer. */
 typedef struct JetState {

@@ -16,14 +16,16 @@ int ray_tree_create(RayTree *tree, int facet_count, const int32_t *node)
     *tree = (RayTree){.facet_count = facet_count, .node = node};
     tree->order = memory_alloc(count, sizeof *tree->order);
     tree->box = memory_alloc(2 * count, sizeof *tree->box);
+    tree->hint = memory_alloc(count, sizeof *tree->hint);
     tree->middle = memory_alloc(3 * count, sizeof *tree->middle);
-    return tree->order && tree->box && tree->middle ? 0 : -1;
+    return tree->order && tree->box && tree->hint && tree->middle ? 0 : -1;
 }
 
 void ray_tree_free(RayTree *tree)
 {
     memory_free(tree->order);
     memory_free(tree->box);
+    memory_free(tree->hint);
     memory_free(tree->middle);
     *tree = (RayTree){0};
 }
@@ -100,18 +102,43 @@ static int end_facet(const RayBox *box)
     return box->facets / 8 + box->facets % 8;
 }
 
+static bool is_empty(const RayBox *box)
+{
+    return box->low[0] > box->high[0];
+}
+
 static double surface_of(const RayBox *box)
 {
+    if (is_empty(box)) return 0.0;
     double a = (double)box->high[0] - (double)box->low[0], b = (double)box->high[1] - (double)box->low[1],
            c = (double)box->high[2] - (double)box->low[2];
     return a * b + b * c + c * a;
+}
+
+/* Whether the outer side of a triangle of the facet is seen from one of the points. */
+static bool may_block(const RayTree *tree, int facet, const double *x)
+{
+    if (!tree->side) return true;
+    const int32_t *node = tree->node + 4 * (ptrdiff_t)facet;
+    const double *a = x + 3 * (ptrdiff_t)node[0];
+    double edge[3][3], normal[3], away[3];
+    for (int k = 0; k < 3; k++) vector3_subtract(x + 3 * (ptrdiff_t)node[k + 1], a, edge[k]);
+    for (int t = 0; t < 2 && (t == 0 || node[3] != node[2]); t++) {
+        vector3_cross(edge[t], edge[t + 1], normal);
+        for (int i = 0; i < tree->from_count; i++) {
+            vector3_subtract(a, tree->from[i], away);
+            if (tree->side[facet] * vector3_dot(away, normal) < 0.0) return true;
+        }
+    }
+    return false;
 }
 
 /* The box of a leaf; a float's rounding error is below 6e-8 of the value. */
 static void fit_leaf(RayTree *tree, RayBox *box, const double *x)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (int f = first_facet(box); f < end_facet(box); f++)
+    for (int f = first_facet(box); f < end_facet(box); f++) {
+        if (!may_block(tree, tree->order[f], x)) continue;
         for (int c = 0; c < 4; c++) {
             const double *p = x + 3 * (ptrdiff_t)tree->node[4 * (ptrdiff_t)tree->order[f] + c];
             for (int k = 0; k < 3; k++) {
@@ -119,13 +146,14 @@ static void fit_leaf(RayTree *tree, RayBox *box, const double *x)
                 high[k] = p[k] > high[k] ? p[k] : high[k];
             }
         }
+    }
     for (int k = 0; k < 3; k++) {
-        box->low[k] = (float)(low[k] - 2e-7 * fabs(low[k]));
-        box->high[k] = (float)(high[k] + 2e-7 * fabs(high[k]));
+        box->low[k] = low[k] > high[k] ? INFINITY : (float)(low[k] - 2e-7 * fabs(low[k]));
+        box->high[k] = low[k] > high[k] ? -INFINITY : (float)(high[k] + 2e-7 * fabs(high[k]));
     }
 }
 
-/* Boxes from the last to the first, children before parents; returns their surface over the root's. */
+/* Boxes from the last to the first, children before parents; returns their surface. */
 static double fit(RayTree *tree, const double *x)
 {
     double sum = 0.0;
@@ -142,8 +170,7 @@ static double fit(RayTree *tree, const double *x)
         }
         sum += surface_of(box);
     }
-    double root = surface_of(tree->box);
-    return root > 0.0 ? sum / root : 0.0;
+    return sum;
 }
 
 void ray_tree_build(RayTree *tree, const double *x)
@@ -159,7 +186,22 @@ void ray_tree_build(RayTree *tree, const double *x)
         }
     }
     build_range(tree, 0, tree->facet_count);
+    const int8_t *side = tree->side;
+    tree->side = NULL;
     tree->built_size = fit(tree, x);
+    tree->side = side;
+    if (side) fit(tree, x);
+}
+
+void ray_tree_sides(RayTree *tree, const int8_t *side, const double from[3], const double to[3])
+{
+    tree->side = side;
+    tree->from_count = 1;
+    for (int k = 0; k < 3; k++) {
+        if (from[k] != to[k]) tree->from_count = 2;
+        tree->from[0][k] = from[k];
+        tree->from[1][k] = to[k];
+    }
 }
 
 void ray_tree_refit(RayTree *tree, const double *x)
@@ -175,6 +217,7 @@ typedef struct Ray {
 static bool hits_box(const Ray *ray, const RayBox *box)
 {
     double enter = 0.0, leave = ray->limit;
+    if (is_empty(box)) return false;
     for (int k = 0; k < 3; k++) {
         double a = ((double)box->low[k] - ray->origin[k]) * ray->inverse[k];
         double b = ((double)box->high[k] - ray->origin[k]) * ray->inverse[k];
@@ -186,15 +229,15 @@ static bool hits_box(const Ray *ray, const RayBox *box)
     return enter <= leave * (1.0 + 1e-12) + 1e-300;
 }
 
-/* Moeller and Trumbore 1997, both sides. */
-static bool hits_triangle(const Ray *ray, const double *a, const double *b, const double *c)
+/* Moeller and Trumbore 1997; side 0: both sides, +1 or -1: only against the normal a b c times it. */
+static bool hits_triangle(const Ray *ray, int side, const double *a, const double *b, const double *c)
 {
     double u[3], v[3], p[3], t[3], q[3];
     vector3_subtract(b, a, u);
     vector3_subtract(c, a, v);
     vector3_cross(ray->direction, v, p);
     double determinant = vector3_dot(u, p);
-    if (determinant == 0.0) return false;
+    if (determinant == 0.0 || side * determinant < 0.0) return false;
     double inverse = 1.0 / determinant;
     vector3_subtract(ray->origin, a, t);
     double first = vector3_dot(t, p) * inverse;
@@ -210,12 +253,31 @@ static bool hits_facet(const RayTree *tree, const double *x, const Ray *ray, int
 {
     const int32_t *node = tree->node + 4 * (ptrdiff_t)facet;
     const double *a = x + 3 * (ptrdiff_t)node[0], *b = x + 3 * (ptrdiff_t)node[1], *c = x + 3 * (ptrdiff_t)node[2];
-    if (hits_triangle(ray, a, b, c)) return true;
-    return node[3] != node[2] && hits_triangle(ray, a, c, x + 3 * (ptrdiff_t)node[3]);
+    int side = tree->side ? tree->side[facet] : 0;
+    if (hits_triangle(ray, side, a, b, c)) return true;
+    return node[3] != node[2] && hits_triangle(ray, side, a, c, x + 3 * (ptrdiff_t)node[3]);
 }
 
-bool ray_tree_blocked(const RayTree *tree, const double *x, const double a[3], const double b[3], int skip,
-                      double margin)
+static bool search(RayTree *tree, const double *x, const Ray *ray, int skip)
+{
+    for (int i = 0; i < tree->box_count;) {
+        const RayBox *box = &tree->box[i];
+        if (!hits_box(ray, box)) {
+            i = box->next;
+            continue;
+        }
+        for (int f = first_facet(box); f < end_facet(box); f++) {
+            if (tree->order[f] == skip || !hits_facet(tree, x, ray, tree->order[f])) continue;
+            if (skip >= 0) tree->hint[skip] = tree->order[f] + 1;
+            return true;
+        }
+        i++;
+    }
+    return false;
+}
+
+/* What hid a facet before hides it most often still. */
+bool ray_tree_blocked(RayTree *tree, const double *x, const double a[3], const double b[3], int skip, double margin)
 {
     Ray ray;
     for (int k = 0; k < 3; k++) {
@@ -226,15 +288,6 @@ bool ray_tree_blocked(const RayTree *tree, const double *x, const double a[3], c
     double length = vector3_norm(ray.direction);
     if (!(length > margin)) return false;
     ray.limit = 1.0 - margin / length;
-    for (int i = 0; i < tree->box_count;) {
-        const RayBox *box = &tree->box[i];
-        if (!hits_box(&ray, box)) {
-            i = box->next;
-            continue;
-        }
-        for (int f = first_facet(box); f < end_facet(box); f++)
-            if (tree->order[f] != skip && hits_facet(tree, x, &ray, tree->order[f])) return true;
-        i++;
-    }
-    return false;
+    if (skip >= 0 && tree->hint[skip] > 0 && hits_facet(tree, x, &ray, tree->hint[skip] - 1)) return true;
+    return search(tree, x, &ray, skip);
 }

@@ -18,8 +18,13 @@ typedef struct RayTree {
     const int32_t *node; /* the caller's facets (facet_count x 4), triangles repeat the third node */
     int32_t *order;      /* facets by leaf (facet_count) */
     RayBox *box;         /* (2 x facet_count) */
+    int32_t *hint;       /* last facet found in front of each, plus 1; 0: none (facet_count) */
     double *middle;      /* centroids while building (facet_count x 3) */
-    double built_size;   /* surface of all boxes over that of the root when it was built */
+    double built_size;   /* surface of all boxes over all facets when it was built */
+    const int8_t *side;  /* (facet_count) +1: the normal by the order of the nodes points out; NULL: all facets block.
+                          * With it only those block that the line passes inwards. The caller's */
+    int from_count;
+    double from[2][3]; /* with side: lines start between these points */
 } RayTree;
 
 /* Allocates for facet_count facets whose nodes must outlive the tree; 0, or -1 without memory. */
@@ -29,12 +34,14 @@ void ray_tree_free(RayTree *tree);
 /* Builds the boxes at positions x (.. x 3) by halving at the median of the longest axis. O(n log n). */
 void ray_tree_build(RayTree *tree, const double *x);
 
+/* Only facets whose outer side is seen from a point between these two block, from the next fit on. */
+void ray_tree_sides(RayTree *tree, const int8_t *side, const double from[3], const double to[3]);
+
 /* Fits the boxes to moved positions; builds anew where they have grown to twice the surface. O(n). */
 void ray_tree_refit(RayTree *tree, const double *x);
 
-/* True if a facet other than skip crosses the line from a to b, at a distance of more than margin from b. A quad is
- * taken as its two triangles at the diagonal 1-3. */
-bool ray_tree_blocked(const RayTree *tree, const double *x, const double a[3], const double b[3], int skip,
-                      double margin);
+/* True if a facet other than skip, the line's target (-1: none), crosses the line from a to b, at a distance of more
+ * than margin from b. A quad is taken as its two triangles at the diagonal 1-3. */
+bool ray_tree_blocked(RayTree *tree, const double *x, const double a[3], const double b[3], int skip, double margin);
 
 #endif

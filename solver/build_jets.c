@@ -113,28 +113,62 @@ static void fill_facet(Jet *jet, const ShellRecord *record, int sign, const int3
 {
     JetFacet *facet = &jet->facet[jet->facet_count];
     int32_t *node = jet->node + 4 * (size_t)jet->facet_count++;
+    const int chunk = jet->chunk_count - 1;
     bool triangle = record->corner_count == 3;
     facet->corner_count = (int8_t)record->corner_count;
-    facet->outward = (int8_t)sign;
+    jet->side[jet->facet_count - 1] = (int8_t)sign;
     facet->target = target;
     for (int c = 0; c < 4; c++) {
         int corner = triangle && c == 3 ? 2 : c;
         node[c] = record->node[corner];
-        facet->row[c] = row[corner * BILLOW_LANES];
+        facet->row[c] = row[corner * BILLOW_LANES] - jet->chunk_row[chunk];
+        jet->row_node[jet->chunk_weight[chunk] + facet->row[c]] = node[c];
     }
+}
+
+/* The facets of one segment of elements. */
+static void begin_chunk(const Model *m, const ElementGroup *group, int segment, Jet *jet)
+{
+    int chunk = jet->chunk_count++;
+    jet->segment_chunk[segment] = chunk;
+    jet->chunk_start[chunk] = jet->facet_count;
+    jet->chunk_row[chunk] = m->row_start[segment];
+    jet->chunk_weight[chunk] = jet->row_count;
+    jet->row_count += m->row_start[segment + 1] - m->row_start[segment];
+    const PressureSet *set = &m->pressure_sets[group->pressure_set];
+    for (int k = 0; k < set->count; k++)
+        if (set->source[k] == jet->airbag) jet->chunk_sign[chunk] = (int8_t)set->sign[k];
+}
+
+/* Room for the facets of the jet's bag. */
+static int allocate_facets(Builder *b, Jet *jet)
+{
+    const Model *m = b->model;
+    size_t count = 0, segments = (size_t)m->segment_count + 1;
+    for (int i = 0; i < b->record_count; i++) count += source_place(&b->records[i], jet->airbag) >= 0;
+    jet->facet = builder_alloc(b, count + 1, sizeof *jet->facet);
+    jet->side = builder_alloc(b, count + 1, sizeof *jet->side);
+    jet->node = builder_alloc(b, 4 * count + 1, sizeof *jet->node);
+    jet->chunk_start = builder_alloc(b, segments, sizeof *jet->chunk_start);
+    jet->segment_chunk = builder_alloc(b, segments, sizeof *jet->segment_chunk);
+    jet->chunk_row = builder_alloc(b, segments, sizeof *jet->chunk_row);
+    jet->chunk_weight = builder_alloc(b, segments, sizeof *jet->chunk_weight);
+    jet->chunk_sign = builder_alloc(b, segments, sizeof *jet->chunk_sign);
+    jet->row_node = builder_alloc(b, (size_t)m->row_count + 1, sizeof *jet->row_node);
+    const void *needed[] = {jet->facet,        jet->side,       jet->node,     jet->chunk_start,  jet->chunk_row,
+                            jet->chunk_weight, jet->chunk_sign, jet->row_node, jet->segment_chunk};
+    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
+        if (!needed[i]) return -1;
+    for (int s = 0; s < m->segment_count; s++) jet->segment_chunk[s] = -1;
+    return 0;
 }
 
 static int list_facets(Builder *b, const AirbagDefinition *bag, Jet *jet)
 {
     Model *m = b->model;
-    size_t count = 0;
     unsigned char *targets = memory_alloc((size_t)m->part_count + 1, 1);
     int status = targets ? find_targets(b, bag, targets) : -1;
-    for (int i = 0; i < b->record_count; i++) count += source_place(&b->records[i], jet->airbag) >= 0;
-    jet->facet = builder_alloc(b, count + 1, sizeof *jet->facet);
-    jet->node = builder_alloc(b, 4 * count + 1, sizeof *jet->node);
-    jet->chunk_start = builder_alloc(b, (size_t)m->segment_count + 1, sizeof *jet->chunk_start);
-    if (!jet->facet || !jet->node || !jet->chunk_start) status = -1;
+    if (allocate_facets(b, jet)) status = -1;
     int first = 0, pushed = 0, segment = 0, last = -1;
     for (int g = 0; !status && g < m->group_count; g++) {
         const ElementGroup *group = &m->groups[g];
@@ -145,7 +179,7 @@ static int list_facets(Builder *b, const AirbagDefinition *bag, Jet *jet)
             bool target = record->part >= 0 ? targets[record->part] : bag->jet.psid == 0;
             int block = e / BILLOW_LANES, chunk = group->first_chunk + block / BILLOW_CHUNK;
             while (m->segment_chunk[segment + 1] <= chunk) segment++;
-            if (segment != last) jet->chunk_start[jet->chunk_count++] = jet->facet_count;
+            if (segment != last) begin_chunk(m, group, segment, jet);
             last = segment;
             const int32_t *row = group->row + block * group->corner_count * BILLOW_LANES + e % BILLOW_LANES;
             fill_facet(jet, record, record->sign[place], row, target);
@@ -154,6 +188,7 @@ static int list_facets(Builder *b, const AirbagDefinition *bag, Jet *jet)
         first += group->element_count;
     }
     if (!status) jet->chunk_start[jet->chunk_count] = jet->facet_count;
+    if (!status) jet->chunk_weight[jet->chunk_count] = jet->row_count;
     memory_free(targets);
     if (!status && pushed == 0) return jet_error(b, bag->jet.card10, "no part of PSID is on the surface of this bag");
     return status;
@@ -183,7 +218,7 @@ static void check_focus(Builder *b, const AirbagDefinition *bag, const Jet *jet)
         for (int c = 0; c < 4; c++) x[c] = b->model->initial + 3 * (size_t)jet->node[4 * (size_t)f + (size_t)c];
         double angle = solid_angle(jet->focus, x[0], x[1], x[2]);
         if (jet->facet[f].corner_count == 4) angle += solid_angle(jet->focus, x[0], x[2], x[3]);
-        sum += jet->facet[f].outward * angle;
+        sum += jet->side[f] * angle;
     }
     if (sum > 6.283185307179586) return; /* half of the full angle: holes let some of it out */
     diagnostics_add(
@@ -237,8 +272,10 @@ int build_jets(Builder *b)
         if (!b->definitions->airbags.items[i].jet.given) continue;
         Jet *jet = &m->jets[m->jet_count++];
         jet->first_facet = m->jet_facet_count;
+        jet->first_weight = m->jet_row_count;
         if (build_jet(b, i, jet)) status = -1;
         m->jet_facet_count += jet->facet_count;
+        m->jet_row_count += jet->row_count;
     }
     return status;
 }

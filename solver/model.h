@@ -178,8 +178,8 @@ typedef struct Model {
     Sensor *sensors;      /* airbag/sensor.h (sensor_count) */
     int *sensor_airbag;   /* index of the airbag that each starts (sensor_count) */
     void *sensor_library; /* handle of dlopen, NULL none */
-    int jet_count, jet_facet_count;
-    Jet *jets; /* airbag/jet.h (jet_count); their facets: jet_facet_count */
+    int jet_count, jet_facet_count, jet_row_count;
+    Jet *jets; /* airbag/jet.h (jet_count); their facets: jet_facet_count, their rows: jet_row_count */
     int curve_count;
     Curve
         *curves; /* (first_function + function_count): after room for splines one of a single point for each function */

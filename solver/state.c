@@ -41,6 +41,7 @@ static size_t lay_out(const Model *model, State *state)
     state->sensor = take(base, &used, (size_t)model->sensor_count * sizeof *state->sensor);
     state->jet = take(base, &used, (size_t)model->jet_count * sizeof *state->jet);
     state->jet_shape = take(base, &used, (size_t)model->jet_facet_count * sizeof *state->jet_shape);
+    state->jet_weight = take(base, &used, (size_t)model->jet_row_count * sizeof *state->jet_weight);
     return (used + 63) / 64 * 64;
 }
 

@@ -59,7 +59,8 @@ typedef struct State {
     SensorState *sensor;      /* (sensor_count), airbag/sensor.h */
     JetState *jet;            /* (jet_count), airbag/jet.h */
     double *jet_shape;        /* (jet_facet_count): > 0 the jet's pressure is strength times it, 0 out of its reach,
-                                 -1 hidden */
+                                 -1 hidden; as of the last look */
+    JetWeight *jet_weight;    /* (jet_row_count), written with jet_shape */
 } State;
 
 /* Bytes that a State of this model needs. */

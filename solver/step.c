@@ -60,16 +60,21 @@ static const ElementGroup *group_of_chunk(const Model *m, int chunk)
     return &m->groups[g];
 }
 
-/* A thread has the segments whose middle is in its share of the chunks, counted in the order of the nodes. */
+int step_segment_owner(const Model *m, int segment, int64_t *before, int threads)
+{
+    int chunks = m->segment_chunk[segment + 1] - m->segment_chunk[segment];
+    int owner = (int)((2 * *before + chunks) * threads / (2 * m->chunk_count));
+    *before += chunks;
+    return owner;
+}
+
 void step_elements(Workspace *w, int thread, int threads)
 {
     const Model *m = w->model;
     int64_t before = 0;
     for (int i = 0; i < m->segment_count; i++) {
         int s = m->segment_order[i], first = m->segment_chunk[s], end = m->segment_chunk[s + 1];
-        int64_t owner = (2 * before + end - first) * threads / (2 * m->chunk_count);
-        before += end - first;
-        if (owner != thread) continue;
+        if (step_segment_owner(m, s, &before, threads) != thread) continue;
         const ElementGroup *group = group_of_chunk(m, first);
         memset(w->rows + ROW_SIZE * (ptrdiff_t)m->row_start[s], 0,
                ROW_SIZE * (size_t)(m->row_start[s + 1] - m->row_start[s]) * sizeof *w->rows);

@@ -49,6 +49,23 @@ typedef struct JetSums {
     double before, after; /* power on v at n - 1/2 and n + 1/2 */
 } JetSums;
 
+/* The rows of corner sums of one chunk of a jet's facets, and what acts on them. */
+typedef struct JetRows {
+    const JetWeight *weight; /* (count) */
+    const int32_t *node;     /* (count) */
+    int count;
+    double *row;            /* the first of them (count x ROW_SIZE) */
+    const double *v;        /* velocities of all nodes */
+    double strength, knock; /* pressures on the rows' area vectors: of the jet over its shape, on hidden facets */
+} JetRows;
+
+/* Loops over them, one table per instruction set (solver/jet_kernels.c). */
+typedef struct JetKernels {
+    void (*push)(const JetRows *rows, JetSums *sums); /* forces onto the rows; fills force and before */
+    double (*count)(const JetRows *rows);             /* power of the same forces */
+} JetKernels;
+extern const JetKernels jet_kernels_v2, jet_kernels_v3, jet_kernels_v4;
+
 /* What the step keeps of one jet; nothing of it outlives a cycle but the tree's layout, which changes no result. */
 typedef struct JetWork {
     RayTree tree;
@@ -121,8 +138,9 @@ typedef struct Workspace {
     CyclePlan plan;
     JetWork *jets;     /* (jet_count), NULL without jets */
     JetSums *jet_sums; /* (jet_chunk_count) */
+    const JetKernels *jet_kernels;
     int jet_chunk_count;
-    double *jet_share;      /* area vectors of the facets' corners at t_n (jet_facet_count x 4 x 3) */
+    double *jet_area;       /* area of the facets of each row while looking (jet_row_count) */
     const Curve *curves;    /* the model's, or live_curves if the model has functions */
     Curve *live_curves;     /* the model's with the functions' values */
     double *function_value; /* (airbag_count x function_count) */
@@ -135,6 +153,10 @@ typedef struct NodeKernels {
     NodeLoop *general; /* with body classes and stagnation pressure */
 } NodeKernels;
 extern const NodeKernels node_kernels_v2, node_kernels_v3, node_kernels_v4;
+
+/* The thread that has a segment: its middle is in the thread's share of the chunks, counted in the order of the nodes.
+ * Called for all segments in Model.segment_order; *before, 0 at first, is carried along. */
+int step_segment_owner(const Model *model, int segment, int64_t *before, int threads);
 
 /* Phases of the cycle. */
 int step_bags(Workspace *w);                                           /* thread 0: gas of all bags to t_n; -1 failed */
@@ -164,7 +186,8 @@ void step_functions_select(Workspace *w, int airbag);  /* w->curves give this ba
 void step_sensors(Workspace *w);                       /* thread 0: if the model has any */
 int step_jets_allocate(Workspace *w);                  /* -1 without memory */
 void step_jets_release(Workspace *w);
-void step_jets_prepare(Workspace *w);                       /* thread 0: frames at t_n */
+void step_jets_prepare(Workspace *w);                  /* thread 0: frames at t_n */
+void step_jets_look(Workspace *w, int jet, int chunk); /* line of sight and weights of one chunk of a jet's facets */
 void step_jets_push(Workspace *w, int thread, Team *team);  /* all threads: pressure onto the corners */
 void step_jets_count(Workspace *w, int thread, Team *team); /* all threads: power after the step */
 void step_jets_sum(Workspace *w);                           /* thread 0: the jets' forces */

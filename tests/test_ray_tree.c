@@ -48,26 +48,29 @@ static double volume(const double *a, const double *b, const double *c, const do
     return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-static bool crosses(const double *p, const double *q, const double *a, const double *b, const double *c)
+/* side: 0 or the sign of the normal a b c that must look at p. */
+static bool crosses(const double *p, const double *q, int side, const double *a, const double *b, const double *c)
 {
+    if (side * volume(p, a, b, c) > 0) return false;
     double ends = volume(p, a, b, c) * volume(q, a, b, c);
     double s = volume(p, q, a, b), t = volume(p, q, b, c), u = volume(p, q, c, a);
     return ends < 0 && ((s > 0 && t > 0 && u > 0) || (s < 0 && t < 0 && u < 0));
 }
 
-static bool blocked_by_any(const double *p, const double *q, int skip)
+static bool blocked_by_any(const double *p, const double *q, int skip, const int8_t *side)
 {
     for (int f = 0; f < FACETS; f++) {
         const double *corner[4];
         for (int c = 0; c < 4; c++) corner[c] = x + 3 * node[4 * f + c];
         if (f == skip) continue;
-        if (crosses(p, q, corner[0], corner[1], corner[2])) return true;
-        if (node[4 * f + 3] != node[4 * f + 2] && crosses(p, q, corner[0], corner[2], corner[3])) return true;
+        int look = side ? side[f] : 0;
+        if (crosses(p, q, look, corner[0], corner[1], corner[2])) return true;
+        if (node[4 * f + 3] != node[4 * f + 2] && crosses(p, q, look, corner[0], corner[2], corner[3])) return true;
     }
     return false;
 }
 
-static void compare(const RayTree *tree)
+static void compare(RayTree *tree)
 {
     int blocked = 0;
     for (int i = 0; i < 4000; i++) {
@@ -76,7 +79,7 @@ static void compare(const RayTree *tree)
         if (i % 10 == 0) q[1] = p[1]; /* rays along planes of the boxes */
         if (i % 20 == 0) q[2] = p[2];
         int skip = i % 2 ? -1 : i % FACETS;
-        bool expected = blocked_by_any(p, q, skip);
+        bool expected = blocked_by_any(p, q, skip, NULL);
         blocked += expected;
         if (ray_tree_blocked(tree, x, p, q, skip, 0.0) != expected) fail_msg("ray %d: not %d", i, expected);
     }
@@ -103,6 +106,36 @@ static void test_against_all_facets(void **state)
     compare(&tree);
     ray_tree_free(&tree);
     assert_int_equal(memory_in_use(), 0);
+}
+
+/* Only facets that turn their outer side to the line's start; lines start on a focal line. */
+static void test_sides(void **state)
+{
+    (void)state;
+    static int8_t side[FACETS];
+    RayTree tree;
+    scatter();
+    for (int f = 0; f < FACETS; f++) side[f] = random_unit() < 0.5 ? -1 : 1;
+    assert_int_equal(ray_tree_create(&tree, FACETS, node), 0);
+    for (int look = 0; look < 4; look++) {
+        int blocked = 0, more = 0;
+        double from[3], to[3];
+        for (int k = 0; k < 3; k++) from[k] = random_unit(), to[k] = look % 2 ? random_unit() : from[k];
+        ray_tree_sides(&tree, side, from, to);
+        ray_tree_refit(&tree, x);
+        for (int i = 0; i < 1000; i++) {
+            double p[3], q[3], share = random_unit();
+            for (int k = 0; k < 3; k++) p[k] = from[k] + share * (to[k] - from[k]), q[k] = random_unit();
+            bool expected = blocked_by_any(p, q, i, side);
+            blocked += expected;
+            more += blocked_by_any(p, q, i, NULL) != expected;
+            if (ray_tree_blocked(&tree, x, p, q, i, 0.0) != expected) fail_msg("line %d: not %d", i, expected);
+        }
+        assert_in_range(blocked, 100, 990);
+        assert_in_range(more, 1, 500);
+        for (int i = 0; i < 3 * NODES; i++) x[i] += 0.05 * random_unit();
+    }
+    ray_tree_free(&tree);
 }
 
 static void test_margin_and_edges(void **state)
@@ -133,6 +166,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_against_all_facets),
+        cmocka_unit_test(test_sides),
         cmocka_unit_test(test_margin_and_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
