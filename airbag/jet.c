@@ -99,18 +99,21 @@ static double multiple_shape(const Jet *jet, const Curve *curves, const JetFrame
     return f * f / (jet->same_momentum ? reach : reach * reach);
 }
 
-double jet_shape(const Jet *jet, const Curve *curves, const JetFrame *frame, const double point[3], double area,
-                 double origin[3])
+void jet_origin(const JetFrame *frame, const double point[3], double origin[3])
 {
     double away[3];
     vector3_subtract(point, frame->focus, away);
     double along = vector3_dot(away, frame->across);
     along = along > 0.0 ? along < frame->distance ? along : frame->distance : 0.0;
-    for (int k = 0; k < 3; k++) {
-        origin[k] = frame->focus[k] + along * frame->across[k];
-        away[k] = point[k] - origin[k];
-    }
-    double z = vector3_dot(away, frame->axis), off[3]; /* (J4) */
+    for (int k = 0; k < 3; k++) origin[k] = frame->focus[k] + along * frame->across[k];
+}
+
+double jet_shape(const Jet *jet, const Curve *curves, const JetFrame *frame, const double point[3],
+                 const double origin[3], double area)
+{
+    double away[3], off[3];
+    vector3_subtract(point, origin, away);
+    double z = vector3_dot(away, frame->axis); /* (J4) */
     for (int k = 0; k < 3; k++) off[k] = away[k] - z * frame->axis[k];
     double r = vector3_norm(off);
     return jet->multiple ? multiple_shape(jet, curves, frame, z, r, area) : cone_shape(jet, frame, z, r, area);

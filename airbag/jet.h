@@ -77,9 +77,12 @@ void jet_spread(Jet *jet, const Curve *curves);
 /* The frame at a time for the gas's jet; x positions (.. x 3). A degenerate axis gives no jet. */
 JetFrame jet_frame(const Jet *jet, const Curve *curves, const double *x, const GasJet *gas, double time);
 
-/* Shape of the pressure at a point (J5 to J9), bounded by the facet's area [1/L2, for jets without _CM 1/L4]; origin
- * receives the point of the focal line that the jet comes from. 0 where the jet does not reach. */
-double jet_shape(const Jet *jet, const Curve *curves, const JetFrame *frame, const double point[3], double area,
-                 double origin[3]);
+/* The point of the focal line that the jet comes from to a point. */
+void jet_origin(const JetFrame *frame, const double point[3], double origin[3]);
+
+/* Shape of the pressure at a point that the jet comes to from origin (J5 to J9), bounded by the facet's area [1/L2, for
+ * jets without _CM 1/L4]. 0 where the jet does not reach. */
+double jet_shape(const Jet *jet, const Curve *curves, const JetFrame *frame, const double point[3],
+                 const double origin[3], double area);
 
 #endif

@@ -153,15 +153,21 @@ static void fit_leaf(RayTree *tree, RayBox *box, const double *x)
     }
 }
 
-/* Boxes from the last to the first, children before parents; returns their surface. */
-static double fit(RayTree *tree, const double *x)
+void ray_tree_fit_leaves(RayTree *tree, const double *x, int part, int parts)
+{
+    int first = (int)((int64_t)tree->box_count * part / parts),
+        end = (int)((int64_t)tree->box_count * (part + 1) / parts);
+    for (int i = first; i < end; i++)
+        if (tree->box[i].facets != 0) fit_leaf(tree, &tree->box[i], x);
+}
+
+/* Inner boxes from the last to the first, children before parents; returns the surface of all boxes. */
+static double fit_inner(RayTree *tree)
 {
     double sum = 0.0;
     for (int i = tree->box_count - 1; i >= 0; i--) {
         RayBox *box = &tree->box[i];
-        if (box->facets != 0) {
-            fit_leaf(tree, box, x);
-        } else {
+        if (box->facets == 0) {
             const RayBox *a = box + 1, *b = &tree->box[a->next];
             for (int k = 0; k < 3; k++) {
                 box->low[k] = a->low[k] < b->low[k] ? a->low[k] : b->low[k];
@@ -171,6 +177,12 @@ static double fit(RayTree *tree, const double *x)
         sum += surface_of(box);
     }
     return sum;
+}
+
+static double fit(RayTree *tree, const double *x)
+{
+    ray_tree_fit_leaves(tree, x, 0, 1);
+    return fit_inner(tree);
 }
 
 void ray_tree_build(RayTree *tree, const double *x)
@@ -204,9 +216,15 @@ void ray_tree_sides(RayTree *tree, const int8_t *side, const double from[3], con
     }
 }
 
+void ray_tree_finish(RayTree *tree, const double *x)
+{
+    if (tree->box_count == 0 || fit_inner(tree) > WORN_OUT * tree->built_size) ray_tree_build(tree, x);
+}
+
 void ray_tree_refit(RayTree *tree, const double *x)
 {
-    if (tree->box_count == 0 || fit(tree, x) > WORN_OUT * tree->built_size) ray_tree_build(tree, x);
+    ray_tree_fit_leaves(tree, x, 0, 1);
+    ray_tree_finish(tree, x);
 }
 
 typedef struct Ray {

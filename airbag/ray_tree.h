@@ -40,6 +40,10 @@ void ray_tree_sides(RayTree *tree, const int8_t *side, const double from[3], con
 /* Fits the boxes to moved positions; builds anew where they have grown to twice the surface. O(n). */
 void ray_tree_refit(RayTree *tree, const double *x);
 
+/* The same in two steps: the leaves part by part, which may go on at the same time, then the rest. */
+void ray_tree_fit_leaves(RayTree *tree, const double *x, int part, int parts);
+void ray_tree_finish(RayTree *tree, const double *x);
+
 /* True if a facet other than skip, the line's target (-1: none), crosses the line from a to b, at a distance of more
  * than margin from b. A quad is taken as its two triangles at the diagonal 1-3. */
 bool ray_tree_blocked(RayTree *tree, const double *x, const double a[3], const double b[3], int skip, double margin);

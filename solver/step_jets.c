@@ -67,7 +67,6 @@ void step_jets_prepare(Workspace *w)
         double end[3];
         for (int k = 0; k < 3; k++) end[k] = work->frame.focus[k] + work->frame.distance * work->frame.across[k];
         ray_tree_sides(&work->tree, jet->side, work->frame.focus, end);
-        ray_tree_refit(&work->tree, w->state->x);
         w->state->jet[i].next_view = next_view(w, jet);
         w->state->jet[i].looks++;
     }
@@ -115,10 +114,21 @@ static void do_own_chunks(Workspace *w, int number, int thread, int threads, Chu
     }
 }
 
+/* Boxes at the present positions, before the line of sight is looked at. */
+static void fit_tree(Workspace *w, int number, int thread, Team *team)
+{
+    RayTree *tree = &w->jets[number].tree;
+    ray_tree_fit_leaves(tree, w->state->x, thread, team_size(team));
+    team_barrier(team);
+    if (thread == 0) ray_tree_finish(tree, w->state->x);
+    team_barrier(team);
+}
+
 /* One jet after the other: two bags may share a wall. */
 void step_jets_push(Workspace *w, int thread, Team *team)
 {
     for (int i = 0; i < w->model->jet_count; i++) {
+        if (w->jets[i].view) fit_tree(w, i, thread, team);
         do_own_chunks(w, i, thread, team_size(team), push_chunk);
         team_barrier(team);
     }

@@ -31,12 +31,13 @@ static double view_facet(const Workspace *w, const Jet *jet, JetWork *work, int 
     facet_geometry(jet, f, w->state->x, middle, outward);
     *area = vector3_norm(outward);
     if (before != 0.0 && (f + w->state->jet[work - w->jets].looks) % 2 != 0) return before;
-    if (!jet->facet[f].target && jet->knock_curve < 0) return 0.0;
-    double shape = jet_shape(jet, w->model->curves, &work->frame, middle, *area, origin);
-    if (!jet->facet[f].target) shape = 0.0;
-    if (!(shape > 0.0) && jet->knock_curve < 0) return 0.0;
+    bool target = jet->facet[f].target;
+    if (!target && jet->knock_curve < 0) return 0.0;
+    jet_origin(&work->frame, middle, origin);
     vector3_subtract(middle, origin, sight);
     if (!(vector3_dot(sight, outward) > 0.0)) return -1.0;
+    double shape = target ? jet_shape(jet, w->model->curves, &work->frame, middle, origin, *area) : 0.0;
+    if (!(shape > 0.0) && jet->knock_curve < 0) return 0.0;
     return ray_tree_blocked(&work->tree, w->state->x, origin, middle, f, VIEW_MARGIN * sqrt(*area)) ? -1.0 : shape;
 }
 

@@ -37,8 +37,9 @@ static GasJet nitrogen(double flow)
 
 static double pressure_at(const Jet *jet, const Curve *curves, const JetFrame *frame, double px, double py, double pz)
 {
-    double origin[3];
-    return frame->strength * jet_shape(jet, curves, frame, (double[]){px, py, pz}, 0.0, origin);
+    double origin[3], point[3] = {px, py, pz};
+    jet_origin(frame, point, origin);
+    return frame->strength * jet_shape(jet, curves, frame, point, origin, 0.0);
 }
 
 /* Integral over the plane z, rings about the axis up to a radius. */
@@ -108,9 +109,9 @@ static void wedge(void **state)
         if (cm) verify_close("force of the wedge [N]", force, 539.320861, 1e-4);
         if (!cm) verify_close("flow of the wedge [kg/s]", flow, 1, 1e-2);
         double origin[3];
-        jet_shape(&jet, NULL, &frame, (double[]){0.1, 0.05, 0.3}, 0, origin);
+        jet_origin(&frame, (double[]){0.1, 0.05, 0.3}, origin);
         verify_near("the nearest point of the focal line", origin[0], 0.1, 1e-15);
-        jet_shape(&jet, NULL, &frame, (double[]){0.4, 0.05, 0.3}, 0, origin);
+        jet_origin(&frame, (double[]){0.4, 0.05, 0.3}, origin);
         verify_near("its end", origin[0], 0.25, 1e-15);
     }
 }
@@ -175,9 +176,9 @@ static void near_the_focus(void **state)
     Jet jet = cone(0.2, true);
     GasJet gas = nitrogen(1);
     JetFrame frame = jet_frame(&jet, NULL, NULL, &gas, 0);
-    double origin[3], area = 1e-4;
+    double area = 1e-4;
     for (double z = 1e-6; z < 1; z *= 3)
-        assert_true(area * frame.strength * jet_shape(&jet, NULL, &frame, (double[]){0, 0, z}, area, origin) <=
+        assert_true(area * frame.strength * jet_shape(&jet, NULL, &frame, (double[]){0, 0, z}, frame.focus, area) <=
                     539.320861 * (1 + 1e-9));
 }
 
