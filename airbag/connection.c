@@ -167,6 +167,7 @@ void gas_connect(const GasConnection *c, const Curve *curves, GasSide first, Gas
 {
     bool forward = first.state->pressure > second.state->pressure;
     if ((forward && c->direction > 0) || (!forward && c->direction < 0)) return;
+    if (gas_asleep(first.gas, first.state) || gas_asleep(second.gas, second.state)) return;
     GasSide *up = forward ? &first : &second, *down = forward ? &second : &first;
     double high = up->state->pressure, low = down->state->pressure;
     Transfer t = begin_transfer(c, curves, up, down, time, part_area);
@@ -194,6 +195,7 @@ double gas_connection_scale(const GasConnection *c, const Curve *curves, GasSide
 {
     bool forward = first.state->pressure > second.state->pressure;
     if ((forward && c->direction > 0) || (!forward && c->direction < 0)) return CHAMBER_NO_SCALE;
+    if (gas_asleep(first.gas, first.state) || gas_asleep(second.gas, second.state)) return CHAMBER_NO_SCALE;
     GasSide *up = forward ? &first : &second, *down = forward ? &second : &first;
     double high = up->state->pressure, low = down->state->pressure;
     Transfer t = begin_transfer(c, curves, up, down, time, part_area);

@@ -79,6 +79,40 @@ int gas_initialize(const GasModel *gas, const Curve *curves, double vsca, double
     return 0;
 }
 
+bool gas_asleep(const GasModel *gas, const GasState *state)
+{
+    return gas->kind >= GAS_PRESSURE_VOLUME && isinf(state->inflow_start);
+}
+
+void gas_sleep(const GasModel *gas, GasState *state)
+{
+    state->inflow_start = INFINITY;
+    if (!gas_asleep(gas, state)) return;
+    *state = (GasState){.volume = state->volume,
+                        .area = state->area,
+                        .guard = state->guard,
+                        .flat = state->flat,
+                        .initial_volume = state->initial_volume,
+                        .pressure = gas->ambient_pressure,
+                        .inflow_start = INFINITY};
+}
+
+void gas_wake(const GasModel *gas, const Curve *curves, double vsca, double psca, double time, GasState *state)
+{
+    bool begins = gas_asleep(gas, state);
+    state->inflow_start = time;
+    if (!begins) return;
+    state->initial_volume = state->volume;
+    models[gas->kind]->start(gas, curves, state); /* what it refuses it has refused at the build */
+    scale_applied(vsca, psca, state);
+}
+
+/* The time that a model's curves count from: that of laws begins with the bag. */
+static double own_time(const GasModel *gas, const GasState *state, double time)
+{
+    return gas->kind >= GAS_PRESSURE_VOLUME ? time - state->inflow_start : time;
+}
+
 /* Volume of the gas at the end of the step, or NAN with *why set. */
 static double next_volume(const GasState *state, double vsca, double vini, const GasStep *step, const char **why)
 {
@@ -101,7 +135,15 @@ int gas_advance(const GasModel *gas, const Curve *curves, double vsca, double ps
     if (isnan(volume)) return -1;
     GasState next = *state;
     next.mass_flow_out_vent = next.mass_flow_out_porosity = next.mass_flow_inflator = 0.0;
-    *why = models[gas->kind]->advance(gas, curves, step, volume, &next);
+    if (gas_asleep(gas, state)) {
+        next.volume = volume;
+        next.area = step->area;
+        *state = next;
+        return 0;
+    }
+    GasStep own = *step;
+    own.time = own_time(gas, state, step->time);
+    *why = models[gas->kind]->advance(gas, curves, &own, volume, &next);
     if (!*why && !(isfinite(next.pressure) && isfinite(next.applied))) *why = "the pressure of the gas is not finite";
     if (*why) return -1;
     if (next.volume > next.guard * (BILLOW_GAS_FLAT / BILLOW_GAS_GUARD)) next.flat = 0.0;
@@ -120,7 +162,7 @@ int gas_advance(const GasModel *gas, const Curve *curves, double vsca, double ps
 
 void gas_refresh(GasSide *side, const Curve *curves, double time)
 {
-    models[side->gas->kind]->refresh(side->gas, curves, time, side->state);
+    models[side->gas->kind]->refresh(side->gas, curves, own_time(side->gas, side->state, time), side->state);
     scale_applied(side->vsca, side->psca, side->state);
 }
 
@@ -131,10 +173,11 @@ bool gas_connects(GasKind kind)
 
 double chamber_pressure(const GasModel *gas, const Curve *curves, double time, const GasState *state, double mass)
 {
-    return models[gas->kind]->pressure(gas, curves, time, state, mass);
+    return models[gas->kind]->pressure(gas, curves, own_time(gas, state, time), state, mass);
 }
 
 double gas_time_scale(const GasModel *gas, const Curve *curves, const GasState *state, double time)
 {
-    return models[gas->kind]->time_scale(gas, curves, state, time);
+    if (gas_asleep(gas, state)) return CHAMBER_NO_SCALE;
+    return models[gas->kind]->time_scale(gas, curves, state, own_time(gas, state, time));
 }

@@ -210,6 +210,15 @@ int gas_initialize(const GasModel *gas, const Curve *curves, double vsca, double
 int gas_advance(const GasModel *gas, const Curve *curves, double vsca, double psca, double vini, const GasStep *step,
                 GasState *state, const char **why);
 
+/* A bag of a law without inflow (GAS_PRESSURE_VOLUME and on) whose sensor has not fired: it has no pressure. */
+bool gas_asleep(const GasModel *gas, const GasState *state);
+
+/* Puts such a bag to sleep at the start; the others keep their state. */
+void gas_sleep(const GasModel *gas, GasState *state);
+
+/* Begins it at a time on the volume that it has; its curves over time count from there. Of others, the inflow. */
+void gas_wake(const GasModel *gas, const Curve *curves, double vsca, double psca, double time, GasState *state);
+
 /* FLUID_AND_GAS while it is filled: sets the level that the card prescribes at a time (step: one more XWADD). False
  * once the fluid's volume is what is kept, and for all other models. */
 bool gas_fluid_level(const GasModel *gas, const Curve *curves, double time, bool step, GasState *state);

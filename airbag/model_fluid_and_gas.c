@@ -41,9 +41,9 @@ static void set_applied(const GasModel *gas, GasState *state)
 bool gas_fluid_level(const GasModel *gas, const Curve *curves, double time, bool step, GasState *state)
 {
     const FluidAndGasLaw *law = &gas->fluid_and_gas;
-    if (gas->kind != GAS_FLUID_AND_GAS || !is_filling(gas, state)) return false;
+    if (gas->kind != GAS_FLUID_AND_GAS || gas_asleep(gas, state) || !is_filling(gas, state)) return false;
     if (law->level_curve >= 0) {
-        state->fluid_level = curve_value(&curves[law->level_curve], time);
+        state->fluid_level = curve_value(&curves[law->level_curve], time - state->inflow_start);
     } else if (step) {
         double next = state->fluid_level + law->level_step;
         bool past = law->level_step > 0.0 ? next >= law->final_level : next <= law->final_level;

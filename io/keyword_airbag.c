@@ -21,13 +21,6 @@ const FieldSpec airbag_core_fields[AIRBAG_CORE_FIELDS] = {
     CARD_REAL_OR("PSCA", psca, 1.0, USED, NONE), CARD_REAL("VINI", vini, USED, VOLUME),
     CARD_REAL("MWD", mwd, USED, RATE),           CARD_REAL("SPSF", spsf, USED, NONE),
 };
-/* RBID refused: models without an inflow that a sensor could start. */
-const FieldSpec airbag_unsensed_fields[AIRBAG_CORE_FIELDS] = {
-    CARD_INT("SID", sid, USED, ID_SET),          CARD_INT("SIDTYP", sidtyp, USED, NONE),
-    CARD_INT("RBID", rbid, REFUSED, NONE),       CARD_REAL_OR("VSCA", vsca, 1.0, USED, NONE),
-    CARD_REAL_OR("PSCA", psca, 1.0, USED, NONE), CARD_REAL("VINI", vini, USED, VOLUME),
-    CARD_REAL("MWD", mwd, USED, RATE),           CARD_REAL("SPSF", spsf, USED, NONE),
-};
 static const FieldSpec simple3_fields[] = {
     CARD_REAL("CV", cv, USED, NONE),           CARD_REAL("CP", cp, USED, NONE),    CARD_REAL("T", t, USED, TEMPERATURE),
     CARD_INT("LCID", lcid, USED, ID_FUNCTION), CARD_REAL("MU", mu, USED, NONE),    CARD_REAL("AREA", area, USED, NONE),
@@ -92,15 +85,15 @@ static const FieldSpec wang8_fields[] = {
 };
 #undef AT
 
-enum { SIMPLE_CARD3 = AIRBAG_CARD_SENSED, SIMPLE_CARD4A, SIMPLE_CARD4B };
+enum { SIMPLE_CARD3 = AIRBAG_CARD_MODEL, SIMPLE_CARD4A, SIMPLE_CARD4B };
 static const CardSpec simple_cards[] = {
-    AIRBAG_SENSED_CARDS,
+    AIRBAG_CARDS,
     {"card 3", "", CARD_FIELDS(simple3_fields)},
     {"card 4a", "if CV = 0", CARD_FIELDS(simple4a_fields)},
     {"card 4b", "if CV is not 0; may be left out", CARD_FIELDS(simple4b_fields)},
 };
 enum {
-    WANG_CARD3 = AIRBAG_CARD_SENSED,
+    WANG_CARD3 = AIRBAG_CARD_MODEL,
     WANG_CARD4,
     WANG_CARD5,
     WANG_CARD6,
@@ -114,7 +107,7 @@ enum {
 };
 enum { WANG_POP = AIRBAG_OPTION_ID + 1, WANG_JETTING, WANG_MULTIPLE_JETTING, WANG_CM };
 static const CardSpec wang_cards[] = {
-    AIRBAG_SENSED_CARDS,
+    AIRBAG_CARDS,
     {"card 3", "", CARD_FIELDS(wang3_fields)},
     {"card 4", "", CARD_FIELDS(wang4_fields)},
     {"card 5", "", CARD_FIELDS(wang5_fields)},
@@ -139,13 +132,7 @@ int airbag_read_core(KeywordRead *read, AirbagDefinition *bag)
     }
     if (keyword_card(read, AIRBAG_CARD_CORE, bag, true, &bag->card1)) return -1;
     if (!keyword_check_id(read, bag->sid, "SID", bag->card1)) status = -1;
-    return status;
-}
-
-int airbag_read_sensed(KeywordRead *read, AirbagDefinition *bag)
-{
-    int status = airbag_read_core(read, bag);
-    if (airbag_read_sensor(read, AIRBAG_CARD_MODEL, bag)) status = -1;
+    if (airbag_read_sensor(read, AIRBAG_CARD_SENSOR, bag)) status = -1;
     return status;
 }
 
@@ -173,7 +160,7 @@ void airbag_store(KeywordRead *read, const AirbagDefinition *card)
 static void read_simple(KeywordRead *read)
 {
     AirbagDefinition bag = {.model = AIRBAG_SIMPLE};
-    if (airbag_read_sensed(read, &bag)) return;
+    if (airbag_read_core(read, &bag)) return;
     if (keyword_card(read, SIMPLE_CARD3, &bag, true, &bag.card3)) return;
     if (bag.mu < 0.0 && !keyword_real_id(read, &bag.mu, SCALE_ID_FUNCTION, "MU", bag.card3)) return;
     if (bag.area < 0.0 && !keyword_real_id(read, &bag.area, SCALE_ID_FUNCTION, "AREA", bag.card3)) return;
@@ -226,7 +213,7 @@ static int check_inflator(const KeywordRead *read, const AirbagDefinition *bag)
 static void read_wang_nefske(KeywordRead *read)
 {
     AirbagDefinition bag = {.model = AIRBAG_WANG_NEFSKE};
-    if (airbag_read_sensed(read, &bag)) return;
+    if (airbag_read_core(read, &bag)) return;
     if (keyword_card(read, WANG_CARD3, &bag, true, &bag.card3)) return;
     if (keyword_card(read, WANG_CARD4, &bag, true, &bag.card4)) return;
     if (keyword_card(read, WANG_CARD5, &bag, true, &bag.card5)) return;

@@ -76,7 +76,7 @@ static const FieldSpec polynomial_fields[] = {
 #undef AT
 
 enum {
-    HYBRID_CARD3 = AIRBAG_CARD_SENSED,
+    HYBRID_CARD3 = AIRBAG_CARD_MODEL,
     HYBRID_CARD4,
     HYBRID_CARD5,
     HYBRID_CARD51,
@@ -87,7 +87,7 @@ enum {
 };
 enum { HYBRID_JETTING = AIRBAG_OPTION_ID + 1, HYBRID_CM };
 static const CardSpec hybrid_cards[] = {
-    AIRBAG_SENSED_CARDS,
+    AIRBAG_CARDS,
     {"card 3", "", CARD_FIELDS(hybrid3_fields)},
     {"card 4", "", CARD_FIELDS(hybrid4_fields)},
     {"card 5", "", CARD_FIELDS(hybrid5_fields)},
@@ -96,7 +96,7 @@ static const CardSpec hybrid_cards[] = {
     AIRBAG_HYBRID_JET_CARDS,
 };
 enum {
-    CHEMKIN_CARD3 = AIRBAG_CARD_SENSED,
+    CHEMKIN_CARD3 = AIRBAG_CARD_MODEL,
     CHEMKIN_CARD4,
     CHEMKIN_CARD5,
     CHEMKIN_CARD6,
@@ -106,7 +106,7 @@ enum {
     CHEMKIN_CARD7B
 };
 static const CardSpec chemkin_cards[] = {
-    AIRBAG_SENSED_CARDS,
+    AIRBAG_CARDS,
     {"card 3", "", CARD_FIELDS(chemkin3_fields)},
     {"card 4", "", CARD_FIELDS(chemkin4_fields)},
     {"card 5", "", CARD_FIELDS(chemkin5_fields)},
@@ -167,7 +167,7 @@ static void read_hybrid(KeywordRead *read)
         .focus_card = HYBRID_CARD7,
         .react_card = HYBRID_CARD8,
     };
-    if (airbag_read_sensed(read, &bag)) return;
+    if (airbag_read_core(read, &bag)) return;
     if (keyword_card(read, HYBRID_CARD3, &bag, true, &bag.card3)) return;
     if (keyword_card(read, HYBRID_CARD4, &bag, true, &bag.card4)) return;
     if (keyword_card(read, HYBRID_CARD5, &bag, true, &bag.card5)) return;
@@ -205,7 +205,7 @@ static int read_chemkin_gas(KeywordRead *read, const AirbagDefinition *bag, Airb
 static void read_chemkin(KeywordRead *read)
 {
     AirbagDefinition bag = {.model = AIRBAG_CHEMKIN};
-    if (airbag_read_sensed(read, &bag)) return;
+    if (airbag_read_core(read, &bag)) return;
     if (keyword_card(read, CHEMKIN_CARD3, &bag, true, &bag.card3)) return;
     if (keyword_card(read, CHEMKIN_CARD4, &bag, true, &bag.card4)) return;
     if (keyword_card(read, CHEMKIN_CARD5, &bag, true, &bag.card5)) return;

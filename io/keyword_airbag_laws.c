@@ -120,40 +120,43 @@ static const KeywordSpec specs[] = {
     {.name = "*AIRBAG_SIMPLE_PRESSURE_VOLUME",
      .options = {"ID"},
      .cards = volume_cards,
-     .card_count = 3,
+     .card_count = sizeof volume_cards / sizeof *volume_cards,
      .read = read_pressure_volume,
      .remark = "Pressure BETA CN/(V/V0), or LCID over V/V0. CN < 0 names a curve over time. LCIDDR acts in dynamic "
-               "relaxation only, which billow does not have. The pressure acts as it is; there is none outside."},
+               "relaxation only, which billow does not have. The pressure acts as it is; there is none outside. With "
+               "RBID the bag begins when the "
+               "sensor fires: no pressure before, then V0 is the volume and time counts from there."},
     {.name = "*AIRBAG_ADIABATIC_GAS_MODEL",
      .options = {"ID"},
      .cards = adiabatic_cards,
-     .card_count = 3,
+     .card_count = sizeof adiabatic_cards / sizeof *adiabatic_cards,
      .read = read_adiabatic,
      .remark = "While LCID is zero the walls feel PSF P0; from its first value that is not zero the gas is closed. "
-               "Then its mass is R0 times the volume at that time."},
+               "Then its mass is R0 times the volume at that time. With RBID the bag begins when the sensor fires."},
     {.name = "*AIRBAG_LOAD_CURVE",
      .options = {"ID"},
      .cards = curve_cards,
-     .card_count = 3,
+     .card_count = sizeof curve_cards / sizeof *curve_cards,
      .read = read_load_curve,
      .remark = "LCID is read at the time since STIME. With LCID = 0 the pressure is C rho (T - T0) with C from R0, P0, "
-               "PE and T at the start, less PE."},
+               "PE and T at the start, less PE. With RBID the bag begins, and time counts, when the sensor fires."},
     {.name = "*AIRBAG_LINEAR_FLUID",
      .options = {"ID"},
      .cards = fluid_cards,
-     .card_count = 4,
+     .card_count = sizeof fluid_cards / sizeof *fluid_cards,
      .read = read_linear_fluid,
      .remark = "NONULL other than 0 keeps the pressure off parts of *MAT_NULL, which still bound the volume. LCOUTP "
-               "is read at the pressure that acts. Flows by LCINT, LCOUTT and LCOUTP are given positive."},
+               "is read at the pressure that acts. Flows by LCINT, LCOUTT and LCOUTP are given positive. With RBID "
+               "the bag begins, and time counts, when the sensor fires: its mass is then RO times the volume."},
     {.name = "*AIRBAG_FLUID_AND_GAS",
      .options = {"ID"},
      .cards = level_cards,
-     .card_count = 4,
+     .card_count = sizeof level_cards / sizeof *level_cards,
      .read = read_fluid_and_gas,
      .remark =
          "XWINI, XW and LCXW are coordinates on the axis |GDIR|. Gravity is that of *LOAD_BODY on this axis. NPROJ, "
          "IDIR and IIDIR have no say: the volumes are exact, holes are capped. KBM counts when the fluid fills the "
-         "bag."},
+         "bag. With RBID the bag begins, and time counts, when the sensor fires."},
 };
 
 const KeywordFamily keyword_family_airbag_laws = {"Airbags by a law of pressure", specs,

@@ -109,7 +109,8 @@ static void start_sensors(const Model *model, State *state)
 {
     for (int i = 0; i < model->sensor_count; i++) {
         int body = model->sensors[i].rigid_body;
-        state->gas[model->sensor_airbag[i]].inflow_start = INFINITY;
+        int airbag = model->sensor_airbag[i];
+        gas_sleep(&model->airbags[airbag].gas, &state->gas[airbag]);
         if (body >= 0) memcpy(state->sensor[i].start, state->rigid[body].v, sizeof state->sensor[i].start);
     }
 }

@@ -104,7 +104,8 @@ static void measure_fluid(Workspace *w, double time, bool step)
     const Model *m = w->model;
     for (int i = 0; m->has_fluid && i < m->airbag_count; i++)
         if (gas_fluid_level(&m->airbags[i].gas, m->curves, time, step, &w->state->gas[i]) ||
-            (!step && m->airbags[i].gas.kind == GAS_FLUID_AND_GAS && w->state->clock->cycle == 0))
+            (!step && m->airbags[i].gas.kind == GAS_FLUID_AND_GAS && w->state->clock->cycle == 0 &&
+             !gas_asleep(&m->airbags[i].gas, &w->state->gas[i])))
             w->fluid_volume[i] = step_fluid_volume(w, i, w->state->gas[i].fluid_level);
         else
             w->fluid_volume[i] = w->state->gas[i].fluid_volume;

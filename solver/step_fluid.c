@@ -85,6 +85,12 @@ static Below measure_below(const Workspace *w, const Airbag *bag, double level)
     return below;
 }
 
+void step_fluid_begin(Workspace *w, int bag)
+{
+    GasState *gas = &w->state->gas[bag];
+    gas->fluid_volume = w->fluid_volume[bag] = step_fluid_volume(w, bag, gas->fluid_level);
+}
+
 double step_fluid_volume(const Workspace *w, int bag, double level)
 {
     const Airbag *airbag = &w->model->airbags[bag];
@@ -97,6 +103,7 @@ void step_fluid_settle(Workspace *w, int bag)
     const Airbag *airbag = &w->model->airbags[bag];
     const FluidAndGasLaw *law = &airbag->gas.fluid_and_gas;
     GasState *gas = &w->state->gas[bag];
+    if (gas_asleep(&airbag->gas, gas)) return;
     double low = INFINITY, high = -INFINITY, wanted = gas->fluid_volume / airbag->vsca;
     for (int i = 0; i < airbag->node_count; i++) {
         double height = law->up * w->state->x[3 * (ptrdiff_t)airbag->node[i] + law->axis];
@@ -127,7 +134,7 @@ double step_hydrostatic(const Workspace *w, int set, const double *x)
         if (source >= m->airbag_count || m->airbags[source].gas.kind != GAS_FLUID_AND_GAS) continue;
         const Airbag *bag = &m->airbags[source];
         const FluidAndGasLaw *law = &bag->gas.fluid_and_gas;
-        if (law->gravity_curve < 0) continue;
+        if (law->gravity_curve < 0 || gas_asleep(&bag->gas, &w->state->gas[source])) continue;
         double depth = law->up * (w->state->gas[source].fluid_level - x[law->axis]);
         double gravity = fabs(law->gravity * curve_value(&m->curves[law->gravity_curve], w->plan.time));
         if (depth > 0.0) pressure += m->pressure_sets[set].push[k] * bag->psca * bag->gas.density * gravity * depth;

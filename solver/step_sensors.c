@@ -4,6 +4,14 @@
 #include "solver/vector3.h"
 #include "solver/workspace.h"
 
+static void wake(Workspace *w, int number)
+{
+    const Airbag *bag = &w->model->airbags[number];
+    GasState *gas = &w->state->gas[number];
+    gas_wake(&bag->gas, w->curves, bag->vsca, bag->psca, w->plan.time, gas);
+    if (bag->gas.kind == GAS_FLUID_AND_GAS) step_fluid_begin(w, number);
+}
+
 void step_sensors(Workspace *w)
 {
     const Model *m = w->model;
@@ -21,6 +29,6 @@ void step_sensors(Workspace *w)
             }
             quaternion_matrix(body->rotation, motion.turn);
         }
-        if (sensor_fires(sensor, &motion, state)) w->state->gas[m->sensor_airbag[i]].inflow_start = w->plan.time;
+        if (sensor_fires(sensor, &motion, state)) wake(w, m->sensor_airbag[i]);
     }
 }

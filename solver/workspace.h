@@ -161,6 +161,7 @@ int step_segment_owner(const Model *model, int segment, int64_t *before, int thr
 /* Phases of the cycle. */
 int step_bags(Workspace *w);                                           /* thread 0: gas of all bags to t_n; -1 failed */
 double step_fluid_volume(const Workspace *w, int bag, double level);   /* of FLUID_AND_GAS below a level, times VSCA */
+void step_fluid_begin(Workspace *w, int bag);                          /* the volume of the level that it begins with */
 void step_fluid_settle(Workspace *w, int bag);                         /* the level of its volume */
 double step_hydrostatic(const Workspace *w, int set, const double *x); /* its pressure at a place, on a pressure set */
 double step_bags_scale(Workspace *w);                                  /* a step that resolves the gas by itself */
