@@ -41,6 +41,11 @@ static void make_landing_pad(Scene *scene, const Options *options)
     scene_landing_pad(scene, options->n);
 }
 
+static void make_prestressed_cushion(Scene *scene, const Options *options)
+{
+    scene_prestressed_cushion(scene, options->n);
+}
+
 static void make_speed(Scene *scene, const Options *options)
 {
     scene_speed(scene, options->pattern, options->shells, options->cycles);
@@ -74,6 +79,8 @@ static const struct SceneName {
     {"driver-bag", "circular driver bag inflated from flat (-n rings)", make_driver_bag},
     {"cushion", "square cushion inflated from flat (-n cells per side)", make_cushion},
     {"landing-pad", "ring-shaped landing pad with a nozzle (-n cells across)", make_landing_pad},
+    {"prestressed-cushion", "square cushion, inflated at the start, falls onto the floor (-n cells per side)",
+     make_prestressed_cushion},
     {"disc", "clamped disc under pressure (-n, --pattern, --elform, --form)", make_disc},
     {"bag", "half of a bag of two discs under pressure (-n, --pattern, --elform, --form)", make_bag},
     {"square", "quarter of a square cushion under pressure (-n, --pattern, --elform, --form)", make_square},
@@ -87,7 +94,7 @@ static void print_usage(FILE *stream)
     fprintf(stream, "usage: make_deck NAME [-n N] [--pattern quads|diagonal|across|cross] [--elform 5|9] [--form 0|2]\n"
                     "                 [--shells N] [--cycles N] > deck.k\n");
     for (int i = 0; i < SCENE_NAME_COUNT; i++)
-        fprintf(stream, "  %-12s %s\n", scene_names[i].name, scene_names[i].text);
+        fprintf(stream, "  %-20s %s\n", scene_names[i].name, scene_names[i].text);
 }
 
 static int parse_pattern(const char *text, ScenePattern *pattern)

@@ -60,6 +60,16 @@ static const FieldSpec output_fields[] = {
     CARD_REAL("OPIFS", output.opifs, LISTED, TIME),          CARD_INT("IPNINT", output.ipnint, LISTED, NONE),
     CARD_INT_OR("IKEDIT", output.ikedit, 100, LISTED, NONE), CARD_INT_OR("IFLUSH", output.iflush, 5000, LISTED, NONE),
 };
+static const FieldSpec relaxation_fields[] = {
+    CARD_INT_OR("NRCYCK", relaxation.nrcyck, 250, USED, NONE),
+    CARD_REAL_OR("DRTOL", relaxation.drtol, 0.001, USED, NONE),
+    CARD_REAL_OR("DRFCTR", relaxation.drfctr, 0.995, USED, NONE),
+    CARD_REAL("DRTERM", relaxation.drterm, USED, TIME),
+    CARD_REAL("TSSFDR", relaxation.tssfdr, USED, NONE),
+    CARD_INT("IRELAL", relaxation.irelal, USED, NONE),
+    CARD_REAL_OR("EDTTL", relaxation.edttl, 0.04, USED, NONE),
+    CARD_INT("IDRFLG", relaxation.idrflg, USED, NONE),
+};
 #undef AT
 
 /* Later cards, read only to list what they ask for. */
@@ -96,17 +106,6 @@ static const FieldSpec output4_fields[] = {
 static const FieldSpec output5_fields[] = {
     UNUSED_INT("INSF", 0, 0),   UNUSED_INT("ISOLSF", 1, 0), UNUSED_INT("IBSF", 2, 0),   UNUSED_INT("ISSF", 3, 0),
     UNUSED_INT("MLKBAG", 4, 0), UNUSED_INT("KINENG", 5, 0), UNUSED_INT("ISFCNT", 6, 1),
-};
-
-static const FieldSpec relaxation_fields[] = {
-    UNUSED_INT("NRCYCK", 0, 250),
-    UNUSED_REAL("DRTOL", 1, 0.001),
-    UNUSED_REAL("DRFCTR", 2, 0.995),
-    UNUSED_REAL("DRTERM", 3, 0),
-    UNUSED_REAL("TSSFDR", 4, 0),
-    UNUSED_INT("IRELAL", 5, 0),
-    UNUSED_REAL("EDTTL", 6, 0.04),
-    {"IDRFLG", 'I', 10, offsetof(UnusedCard, i[7]), 0.0, false, FIELD_USED, SCALE_NONE},
 };
 
 static const CardSpec termination_cards[] = {{"card 1", "", CARD_FIELDS(termination_fields)}};
@@ -178,15 +177,28 @@ static void read_timestep(KeywordRead *read)
 /* Without IDRFLG the keyword only holds settings in store. */
 static void read_relaxation(KeywordRead *read)
 {
-    UnusedCard card;
-    Source source;
-    if (keyword_card(read, 0, &card, true, &source)) return;
-    keyword_finish(read);
-    if (card.i[7] != 0 && card.i[7] != -999)
+    ControlDefinitions *control = &read->definitions->control;
+    read_control(read, &control->relaxation.given, &control->relaxation.source, 1);
+    const Source source = control->relaxation.source;
+    int flag = control->relaxation.idrflg;
+    if (flag != 0 && flag != -999 && flag != 1 && flag != 5) {
         keyword_error(read, source,
-                      "IDRFLG = %d asks for dynamic relaxation, which billow " BILLOW_VERSION
-                      " does not have; set it to 0",
-                      card.i[7]);
+                      "IDRFLG = %d is not in billow " BILLOW_VERSION
+                      ": 1 relaxes by damped steps, 5 solves the static equilibrium at DRTERM, 0 or -999 does neither",
+                      flag);
+        return;
+    }
+    if (control->relaxation.nrcyck < 1)
+        keyword_error(read, source, "NRCYCK = %d: the number of cycles between checks must be positive",
+                      control->relaxation.nrcyck);
+    if (!(control->relaxation.drtol > 0.0 && control->relaxation.drtol < 1.0))
+        keyword_error(read, source, "DRTOL = %g must lie between 0 and 1", control->relaxation.drtol);
+    if (!(control->relaxation.drfctr > 0.0 && control->relaxation.drfctr <= 1.0))
+        keyword_error(read, source, "DRFCTR = %g must lie between 0 and 1", control->relaxation.drfctr);
+    if (control->relaxation.irelal != 0 && control->relaxation.irelal != 1)
+        keyword_error(read, source, "IRELAL = %d is neither 0 nor 1", control->relaxation.irelal);
+    if (control->relaxation.drterm < 0.0 || control->relaxation.tssfdr < 0.0 || control->relaxation.edttl < 0.0)
+        keyword_error(read, source, "DRTERM, TSSFDR and EDTTL must not be negative");
 }
 
 static const KeywordSpec specs[] = {
@@ -232,7 +244,10 @@ static const KeywordSpec specs[] = {
      .cards = relaxation_cards,
      .card_count = 1,
      .read = read_relaxation,
-     .remark = "IDRFLG may be 0 or -999; dynamic relaxation itself is refused."},
+     .remark =
+         "Before the run: IDRFLG = 1 relaxes by damped explicit steps, IDRFLG = 5 solves the static equilibrium with "
+         "the curves' values at DRTERM; 0 and -999 do neither, other values are refused. Loads by curves of SIDR = 1 "
+         "and 2 act. DRTOL, NRCYCK, DRFCTR, TSSFDR, IRELAL and EDTTL belong to IDRFLG = 1. See the user guide."},
     {.name = "*CONTROL_OUTPUT", .cards = output_cards, .card_count = 5, .read = read_output, .remark = ""},
 };
 

@@ -104,12 +104,9 @@ static void read_load_segment_set(KeywordRead *read)
 
 #define AT(member) offsetof(BodyLoadDefinition, member)
 static const FieldSpec body_fields[] = {
-    CARD_INT("LCID", lcid, USED, ID_FUNCTION),
-    CARD_REAL_OR("SF", sf, 1.0, USED, NONE),
-    CARD_INT("LCIDDR", lciddr, LISTED, ID_FUNCTION),
-    CARD_REAL("XC", xc, LISTED, LENGTH),
-    CARD_REAL("YC", yc, LISTED, LENGTH),
-    CARD_REAL("ZC", zc, LISTED, LENGTH),
+    CARD_INT("LCID", lcid, USED, ID_FUNCTION),     CARD_REAL_OR("SF", sf, 1.0, USED, NONE),
+    CARD_INT("LCIDDR", lciddr, USED, ID_FUNCTION), CARD_REAL("XC", xc, LISTED, LENGTH),
+    CARD_REAL("YC", yc, LISTED, LENGTH),           CARD_REAL("ZC", zc, LISTED, LENGTH),
     CARD_INT("CID", cid, USED, ID_DEFINE),
 };
 #undef AT

@@ -6,6 +6,7 @@
 #include "elements/kernels.h"
 #include "io/read.h"
 #include "solver/build.h"
+#include "solver/relax.h"
 
 static void add_memory_error(Diagnostics *diagnostics)
 {
@@ -27,6 +28,28 @@ static int start_state(Accepted *accepted)
     return -1;
 }
 
+/* The model of the phase before the run, where the deck's curves part the two; its messages are the same again. */
+static int build_phase(const Options *options, Accepted *accepted)
+{
+    Diagnostics *diagnostics = &accepted->diagnostics;
+    if (accepted->model.relax.kind == RELAX_NONE) return 0;
+    if (accepted->model.relax.phase_curves) {
+        Diagnostics again = {0};
+        BuildOptions build = options->build;
+        build.relaxation_phase = true;
+        int status = model_build(&accepted->definitions, &build, &accepted->phase, &again);
+        if (status && again.errors > 0)
+            for (size_t i = 0; i < again.count; i++)
+                if (again.messages[i].severity == SEVERITY_ERROR)
+                    diagnostics_add(diagnostics, SEVERITY_ERROR, again.messages[i].source, again.messages[i].keyword,
+                                    "%s", again.messages[i].text);
+        if (status && again.errors == 0) add_memory_error(diagnostics);
+        diagnostics_free(&again);
+        if (status) return -1;
+    }
+    return relax_check(accepted->phase.node_count > 0 ? &accepted->phase : &accepted->model, diagnostics);
+}
+
 int accept_deck(const Options *options, Accepted *accepted)
 {
     Diagnostics *diagnostics = &accepted->diagnostics;
@@ -42,7 +65,7 @@ int accept_deck(const Options *options, Accepted *accepted)
     if (diagnostics->environment > 0) return -1;
     const int unbuilt = model_build(definitions, &options->build, &accepted->model, diagnostics);
     if (unbuilt && diagnostics_exit_code(diagnostics) == BILLOW_EXIT_NORMAL) add_memory_error(diagnostics);
-    return unread || unbuilt ? -1 : start_state(accepted);
+    return unread || unbuilt || build_phase(options, accepted) ? -1 : start_state(accepted);
 }
 
 void accept_print_problems(const Diagnostics *diagnostics, const char *deck, FILE *stream)
@@ -58,6 +81,7 @@ void accept_free(Accepted *accepted)
 {
     state_free(&accepted->state);
     model_free(&accepted->model);
+    model_free(&accepted->phase);
     definitions_free(&accepted->definitions);
     diagnostics_free(&accepted->diagnostics);
 }

@@ -15,6 +15,7 @@ typedef struct Accepted {
     Diagnostics diagnostics;
     Definitions definitions;
     Model model;
+    Model phase; /* of the phase before the run, where the deck gives it other loads; else empty */
     State state;
 } Accepted;
 

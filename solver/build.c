@@ -56,8 +56,13 @@ static int build_movement(Builder *b)
     for (int i = 0; i < b->shell_count; i++) shell_mass[i] = b->records[i].mass;
     for (int i = 0; i < m->airbag_count; i++)
         bags[i] = (AirbagNodes){m->airbags[i].node_count, m->airbags[i].node, b->definitions->airbags.items[i].mwd};
-    MotionInput input = {
-        .index = &b->index, .x = b->x, .shell_mass = shell_mass, .airbag_count = m->airbag_count, .airbags = bags};
+    MotionInput input = {.index = &b->index,
+                         .x = b->x,
+                         .shell_mass = shell_mass,
+                         .airbag_count = m->airbag_count,
+                         .airbags = bags,
+                         .relaxation_phase = b->options->relaxation_phase,
+                         .relaxed = m->relax.kind != RELAX_NONE};
     int status = build_motion(&input, b->mass, &b->motion, b->diagnostics);
     memory_free(shell_mass);
     memory_free(bags);

@@ -11,6 +11,8 @@ typedef struct BuildOptions {
     bool one_point_quads;       /* one-point quads with hourglass control in place of 2 x 2 points */
     bool caps_push_rim;         /* hole caps give their pressure force to the rim */
     const char *sensor_library; /* shared library with the user's sensor (RBID > 0), NULL none */
+    bool relax;                 /* --relax: static equilibrium before the run */
+    bool relaxation_phase;      /* the model of that phase: curves with SIDR = 1 or 2 act, those with 0 do not */
     double energy_error_limit;  /* > 0: stop beyond this share in place of 0.1 */
 } BuildOptions;
 

@@ -11,6 +11,8 @@ int airbag_pressure_volume(Builder *b, const AirbagDefinition *bag, Airbag *airb
         law->coefficient_curve = airbag_curve(b, (int)bag->cn, "CN", bag->card3, &status);
     else
         law->coefficient = bag->cn;
+    if (b->options->relaxation_phase && bag->lciddr != 0)
+        law->coefficient_curve = airbag_curve(b, bag->lciddr, "LCIDDR", bag->card3, &status);
     law->factor = bag->beta;
     law->relative_curve = airbag_curve(b, bag->lcid, "LCID", bag->card3, &status);
     return status;

@@ -40,12 +40,17 @@ static int add_body_load(const MotionInput *input, const BodyLoadDefinition *car
     static const char *const keywords[] = {"*LOAD_BODY_X", "*LOAD_BODY_Y", "*LOAD_BODY_Z"};
     const char *keyword = keywords[card->axis];
     double axes[9];
-    if (card->lcid == 0 && card->lciddr != 0) {
+    int id = card->lcid;
+    if (input->relaxation_phase && card->lciddr != 0) id = card->lciddr;
+    if (id == 0 && card->lciddr != 0 && !input->relaxed) {
         diagnostics_add(diagnostics, SEVERITY_NOTE, card->source, keyword,
                         "LCID = 0: the load acts in dynamic relaxation only, which this run has none of");
         return 0;
     }
-    int curve = motion_find_curve(input, card->lcid, "LCID", card->source, keyword, diagnostics);
+    if (id == 0 && card->lciddr != 0) return 0;
+    int curve = id == card->lciddr && id != card->lcid
+                    ? deck_index_curve(input->index, id, "LCIDDR", card->source, keyword, diagnostics)
+                    : motion_find_curve(input, id, "LCID", card->source, keyword, diagnostics);
     if (motion_find_axes(input, card->cid, card->source, keyword, axes, diagnostics) || curve == -1) return -1;
     bool fits = true;
     for (int i = 0; i < 3 && curve >= 0; i++) /* a base acceleration: the nodes feel its opposite */

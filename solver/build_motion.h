@@ -29,6 +29,8 @@ typedef struct MotionInput {
     const double *node_mass;  /* lumped (node count) [M]; set by build_motion */
     int airbag_count;
     const AirbagNodes *airbags; /* (airbag_count), index = the model's airbag index */
+    bool relaxation_phase;      /* the model of the phase before the run: the other curves act (SIDR) */
+    bool relaxed;               /* such a phase comes before the run */
 } MotionInput;
 
 /* Everything built. Arrays are owned until the Model takes them over; release with motion_free. */

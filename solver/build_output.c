@@ -72,6 +72,31 @@ static int step_control(Builder *b)
     return 0;
 }
 
+/* The phase before the run: --relax, or IDRFLG. */
+static void relax_control(Builder *b)
+{
+    const ControlDefinitions *c = &b->definitions->control;
+    RelaxControl *relax = &b->model->relax;
+    int flag = c->relaxation.given ? c->relaxation.idrflg : 0;
+    relax->source = BILLOW_NO_SOURCE;
+    if (b->options->relax && flag != 1 && flag != 5) {
+        relax->kind = RELAX_STATIC;
+        relax->tolerance = 1e-8;
+        return;
+    }
+    if (flag != 1 && flag != 5) return;
+    *relax = (RelaxControl){.kind = flag == 5 ? RELAX_STATIC : RELAX_DYNAMIC,
+                            .phase_curves = true,
+                            .time = c->relaxation.drterm,
+                            .tolerance = flag == 5 ? 1e-8 : c->relaxation.drtol,
+                            .check_cycles = c->relaxation.nrcyck,
+                            .factor = c->relaxation.drfctr,
+                            .step_scale = c->relaxation.tssfdr > 0.0 ? c->relaxation.tssfdr : b->model->step_scale,
+                            .automatic = c->relaxation.irelal == 1,
+                            .automatic_tolerance = c->relaxation.edttl,
+                            .source = c->relaxation.source};
+}
+
 int build_output(Builder *b)
 {
     const ControlDefinitions *c = &b->definitions->control;
@@ -97,5 +122,6 @@ int build_output(Builder *b)
     m->output.matsum = interval(b, "MATSUM");
     m->output.restart = interval(b, "BINARY_D3DUMP");
     if (history_nodes(b)) status = -1;
+    relax_control(b);
     return status;
 }

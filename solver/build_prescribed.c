@@ -64,7 +64,7 @@ static int read_direction(const MotionInput *input, const PrescribedMotionDefini
 static void check_start(const MotionInput *input, const PrescribedMotionDefinition *card,
                         const PrescribedMotion *motion, Diagnostics *diagnostics)
 {
-    if (motion->vad != 2 || motion->rotation || motion->birth > 0) return;
+    if (input->relaxed || motion->vad != 2 || motion->rotation || motion->birth > 0) return;
     const CurveDefinition *curve = &input->index->definitions->curves.items[motion->curve];
     size_t k = 0;
     while (k + 1 < curve->x.count && curve->x.items[k + 1] * curve->sfa + curve->offa * curve->sfa <= 0) k++;

@@ -302,6 +302,12 @@ typedef struct ControlDefinitions {
         Source source;
         bool given;
     } output;
+    struct { /* *CONTROL_DYNAMIC_RELAXATION */
+        int nrcyck, irelal, idrflg;
+        double drtol, drfctr, drterm, tssfdr, edttl;
+        Source source;
+        bool given;
+    } relaxation;
 } ControlDefinitions;
 
 /* *DATABASE_<name>: output interval of one result. */

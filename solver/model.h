@@ -25,6 +25,7 @@
 #include "solver/diagnostics.h"
 #include "solver/function.h"
 #include "solver/loads.h"
+#include "solver/relax_control.h"
 #include "solver/rigid_body.h"
 
 typedef enum ElementKind {
@@ -203,6 +204,7 @@ typedef struct Model {
     double added_mass;         /* by DT2MS [M] */
     double energy_error_limit; /* the run stops beyond this share, 0.1 by default */
     OutputPlan output;
+    RelaxControl relax; /* the phase before the run */
 
     void **owned; /* blocks released by model_free */
     size_t owned_count, owned_capacity;

@@ -61,8 +61,11 @@ int motion_find_parts(const MotionInput *input, bool is_set, int id, Source sour
 int motion_find_curve(const MotionInput *input, int id, const char *field, Source source, const char *keyword,
                       Diagnostics *diagnostics)
 {
+    const Definitions *definitions = input->index->definitions;
     int curve = deck_index_curve(input->index, id, field, source, keyword, diagnostics);
-    if (curve < 0 || input->index->definitions->curves.items[curve].sidr != 1) return curve;
+    if (curve < 0 || definitions->curves.items[curve].sidr != (input->relaxation_phase ? 0 : 1)) return curve;
+    int flag = definitions->control.relaxation.given ? definitions->control.relaxation.idrflg : 0;
+    if (flag == 1 || flag == 5) return -2;
     diagnostics_add(diagnostics, SEVERITY_NOTE, source, keyword,
                     "curve %d acts in dynamic relaxation only (SIDR = 1): this card has no effect", id);
     return -2;

@@ -131,6 +131,13 @@ static int set_one_point(Options *options, const char *value)
     return 0;
 }
 
+static int set_relax(Options *options, const char *value)
+{
+    (void)value;
+    options->build.relax = true;
+    return 0;
+}
+
 static int set_caps_push(Options *options, const char *value)
 {
     (void)value;
@@ -146,6 +153,7 @@ static const OptionName option_names[] = {
     {"-q", "--quiet", false, false, set_quiet},
     {NULL, "--one-point-quads", false, true, set_one_point},
     {NULL, "--caps-push-rim", false, true, set_caps_push},
+    {NULL, "--relax", false, true, set_relax},
     {NULL, "--energy-error-limit", true, true, read_energy_limit},
     {NULL, "--sensor-library", true, true, read_sensor_library},
 };
@@ -312,6 +320,7 @@ static const char run_help[] =
     "  -q, --quiet             no progress, only messages and the last line\n"
     "      --one-point-quads   4-node elements with one point and hourglass control: faster, less accurate\n"
     "      --caps-push-rim     flat caps over the bag's holes give their pressure force to the rim\n"
+    "      --relax             starts from the static equilibrium under the loads and bag pressures of time 0\n"
     "      --energy-error-limit X   stop when the energy balance is lost by more than this share (0.1)\n"
     "      --sensor-library FILE    shared library with the sensor function of bags with RBID > 0; its code\n"
     "                          runs with your rights\n"
@@ -327,7 +336,7 @@ void options_print_help(Command command, FILE *stream)
         fputs(run_help, stream);
     } else if (command == COMMAND_CHECK_HELP) {
         fputs("usage: billow check DECK [--end-time T] [--one-point-quads] [--caps-push-rim]\n"
-              "                         [--sensor-library FILE]\n"
+              "                         [--relax] [--sensor-library FILE]\n"
               "\n"
               "Reads and validates a deck and reports parts, masses, bags with volume, holes and gas, the stable\n"
               "time step with its element, and every field that is read but not used. Runs no steps, writes no file.\n"

@@ -13,6 +13,7 @@
 #include "io/summary.h"
 #include "solver/accept.h"
 #include "solver/recorder.h"
+#include "solver/relax.h"
 #include "solver/schedule.h"
 #include "solver/signals.h"
 #include "solver/step.h"
@@ -104,6 +105,30 @@ static void print_start(const Run *run)
     if (run->options->restart)
         printf("restart from %s at cycle %lld, time %.9g\n", run->options->restart, (long long)run->first_cycle,
                run->deck.state.clock->time);
+    fflush(stdout);
+}
+
+/* The phase before the run, if there is one: the state then starts from equilibrium. */
+static void relax(Run *run)
+{
+    const Model *model = &run->deck.model, *phase = run->deck.phase.node_count > 0 ? &run->deck.phase : model;
+    if (model->relax.kind == RELAX_NONE || run->options->restart) return;
+    RelaxReport report;
+    char seconds[32], text[200];
+    FILE *progress = run->options->quiet ? NULL : stdout;
+    if (progress) fprintf(progress, "static equilibrium before the run:\n");
+    relax_run(phase, model, run->threads, progress, &run->deck.state, &report, &run->failure);
+    progress_format_seconds(report.seconds, seconds, sizeof seconds);
+    if (model->relax.kind == RELAX_STATIC)
+        snprintf(text, sizeof text,
+                 "static equilibrium: %d steps, %d factorisations, residual %.3g of the loads, stored energy %.6g, %s",
+                 report.steps, report.factorisations, report.residual, report.energy, seconds);
+    else
+        snprintf(text, sizeof text,
+                 "dynamic relaxation: %ld cycles, kinetic energy %.3g of its largest, stored energy %.6g, %s",
+                 report.cycles, report.residual, report.energy, seconds);
+    if (!run->failure.failed) log_write_event(&run->log, run->deck.state.clock, "%s", text);
+    if (progress && !run->failure.failed) fprintf(progress, "%s\n", text);
     fflush(stdout);
 }
 
@@ -208,7 +233,8 @@ int run_deck(const Options *options)
     if (opened) {
         const size_t printed = run.deck.diagnostics.count;
         print_start(&run);
-        run_loop(&run);
+        relax(&run);
+        if (!run.failure.failed) run_loop(&run);
         close_outputs(&run, printed);
     }
     const int code = exit_code_of(&run);

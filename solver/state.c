@@ -138,13 +138,23 @@ static void start_energies(const Model *model, State *state)
     e->ratio = e->ratio_min = e->ratio_max = 1.0;
 }
 
-int state_create(const Model *model, State *state)
+void state_start_energies(const Model *model, const double *stored, State *state)
 {
-    *state = (State){.size = state_size(model)};
-    state->buffer = memory_alloc(state->size, 1);
-    if (!state->buffer) return -1;
-    state_bind(model, state);
-    memcpy(state->x, model->initial, 3 * (size_t)model->node_count * sizeof *state->x);
+    for (int p = 0; p < model->part_count; p++) {
+        bool ledger = false;
+        for (int g = 0; g < model->group_count; g++)
+            ledger = ledger || (model->groups[g].part == p && model->groups[g].law != LAW_GREEN &&
+                                model->groups[g].law != LAW_SURFACE);
+        if (ledger) state->part_energy[p] += stored[p];
+    }
+    *state->energy = (Energies){0};
+    start_energies(model, state);
+}
+
+int state_start_at(const Model *model, const double *x, State *state)
+{
+    memset(state->buffer, 0, state->size);
+    memcpy(state->x, x, 3 * (size_t)model->node_count * sizeof *state->x);
     if (model->velocity) memcpy(state->v, model->velocity, 3 * (size_t)model->node_count * sizeof *state->v);
     for (int i = 0; i < model->rigid_body_count; i++) rigid_body_start(&model->rigid_bodies[i], &state->rigid[i]);
     for (int i = 0; i < model->wall_count; i++) state->wall[i].speed = model->walls[i].speed;
@@ -156,6 +166,15 @@ int state_create(const Model *model, State *state)
     start_sensors(model, state);
     start_energies(model, state);
     return 0;
+}
+
+int state_create(const Model *model, State *state)
+{
+    *state = (State){.size = state_size(model)};
+    state->buffer = memory_alloc(state->size, 1);
+    if (!state->buffer) return -1;
+    state_bind(model, state);
+    return state_start_at(model, model->initial, state);
 }
 
 uint64_t state_hash(const State *state)

@@ -69,6 +69,13 @@ size_t state_size(const Model *model);
 /* Allocates and initialises the state at time 0 (positions, velocities, gas); 0, or -1 without memory. */
 int state_create(const Model *model, State *state);
 
+/* Starts the state anew, at time 0 with these positions (node_count x 3) in place of the deck's; 0, or -1 without
+ * memory (the state is then freed). */
+int state_start_at(const Model *model, const double *x, State *state);
+
+/* Gives the parts the energy stored at the start (part_count) whose laws keep a ledger of work, and closes the sums. */
+void state_start_energies(const Model *model, const double *stored, State *state);
+
 /* Sets the pointers into state->buffer (of state->size bytes) for this model. */
 void state_bind(const Model *model, State *state);
 

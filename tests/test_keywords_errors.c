@@ -136,8 +136,14 @@ static void test_refused_features(void **state)
         4, "*MAT_FABRIC", "FORM = 14");
     assert_one_error("*SECTION_SHELL\n         1       101\n       0.1\n\n\n", 2, "*SECTION_SHELL", "ELFORM = 101");
     assert_one_error("*CONTROL_DYNAMIC_RELAXATION\n       250     0.001     0.995                           0      0.04"
+                     "         2\n",
+                     2, "*CONTROL_DYNAMIC_RELAXATION", "IDRFLG = 2");
+    assert_one_error("*CONTROL_DYNAMIC_RELAXATION\n        -1     0.001     0.995                           0      0.04"
                      "         1\n",
-                     2, "*CONTROL_DYNAMIC_RELAXATION", "IDRFLG = 1");
+                     2, "*CONTROL_DYNAMIC_RELAXATION", "NRCYCK = -1");
+    assert_one_error("*CONTROL_DYNAMIC_RELAXATION\n       250       2.0     0.995                           0      0.04"
+                     "         1\n",
+                     2, "*CONTROL_DYNAMIC_RELAXATION", "DRTOL = 2");
 }
 
 /* Ids behind a sign in real columns must be whole numbers. */
