@@ -122,9 +122,10 @@ static const KeywordSpec specs[] = {
      .cards = volume_cards,
      .card_count = sizeof volume_cards / sizeof *volume_cards,
      .read = read_pressure_volume,
-     .remark = "Pressure BETA CN/(V/V0), or LCID over V/V0. CN < 0 names a curve over time. LCIDDR gives CN over "
-               "time in dynamic relaxation. The pressure acts as it is; there is none outside. With RBID the bag begins "
-               "when the sensor fires: no pressure before, then V0 is the volume and time counts from there."},
+     .remark =
+         "Pressure BETA CN/(V/V0), or LCID over V/V0. CN < 0 names a curve over time. LCIDDR gives CN over "
+         "time in dynamic relaxation. The pressure acts as it is; there is none outside. With RBID the bag begins "
+         "when the sensor fires: no pressure before, then V0 is the volume and time counts from there."},
     {.name = "*AIRBAG_ADIABATIC_GAS_MODEL",
      .options = {"ID"},
      .cards = adiabatic_cards,
