@@ -101,11 +101,6 @@ static void classify_nodes(Builder *b, const Adjacency *a, unsigned char *class)
         for (int k = 0; k < b->closures[i].cap_count; k++)
             for (int c = 0; c < b->closures[i].caps[k].count; c++)
                 class[b->closures[i].caps[k].node[c]] = CLASS_SPECIAL;
-    for (int i = 0; i < b->model->airbag_count; i++) {
-        const Airbag *bag = &b->model->airbags[i];
-        for (int k = 0; bag->gas.kind == GAS_FLUID_AND_GAS && k < bag->node_count; k++)
-            class[bag->node[k]] = CLASS_SPECIAL; /* pressure by height */
-    }
     for (int n = 0; n < b->node_count; n++) {
         int first = a->start[n], last = a->start[n + 1];
         for (int k = first + 1; k < last; k++)

@@ -75,6 +75,8 @@ static void fill_terms(const Workspace *w, NodeChunk *chunk, int terms)
         chunk->bag[i] = w->bag_pressure[set];
         chunk->load[i] = w->load_pressure[set];
         if (!(terms & BODY_TERMS)) continue;
+        if (m->has_fluid && set < m->pressure_set_count)
+            chunk->bag[i] += step_hydrostatic(w, set, w->state->x + 3 * (ptrdiff_t)node);
         int class = m->node_class ? m->node_class[node] : 0;
         const double *s = chunk->area + 3 * i, *v = w->state->v + 3 * (ptrdiff_t)node;
         double square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2], normal = s[0] * v[0] + s[1] * v[1] + s[2] * v[2];

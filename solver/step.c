@@ -163,6 +163,7 @@ static void prepare(Workspace *w)
             if (m->rigid_bodies[b].node[i] < m->moving_count)
                 w->special_kind[m->rigid_bodies[b].node[i] - m->free_count] = 2;
     w->general = m->node_class != NULL;
+    w->general |= m->has_fluid;
     for (int i = 0; i < m->airbag_count; i++) w->general |= m->airbags[i].spsf > 0.0;
     w->closed = true;
     /* velocities of nodes that never move stay zero; the view shows so */

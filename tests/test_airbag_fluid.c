@@ -103,6 +103,38 @@ static void hydrostatic(void **state)
     }
 }
 
+/* Free corners of a box of null shells feel the pressure at their height, on any number of threads alike. */
+static void free_nodes(void **state)
+{
+    (void)state;
+    uint64_t hash[2];
+    for (int k = 0; k < 2; k++) {
+        Scene scene = {0};
+        SceneText *deck = &scene.deck;
+        deck->exact = true;
+        scene_add_box(&scene.mesh, 1, 1, 1, 0.2, 0.3, 1);
+        scene_begin(deck, "box", 1e-4, 0);
+        scene_write_part(deck, 1, 1, 1, "box");
+        scene_write_section(deck, 1, 9, 1e-3);
+        scene_write_null(deck, 1, 1000);
+        scene_write_part_set(deck, 1, 1, (const int[]){1});
+        scene_print(deck,
+                    "*AIRBAG_FLUID_AND_GAS\n1,1\n0.7,0,0.7,500,0,1000\n-3,3,0,0,1.4,2e9\n*DEFINE_CURVE\n5\n0,1\n1,1\n"
+                    "*LOAD_BODY_Z\n5,9.81\n");
+        scene_end(deck, &scene.mesh);
+        VerifyRun run;
+        int node = k ? 4 : 0; /* at the bottom, at the lid above the level */
+        verify_scene(&run, &scene, &(VerifyOptions){.every = 1, .node = node, .threads = 1 + k, .energy_limit = 1e30});
+        assert_int_equal(run.model.free_count, 8);
+        double pressure = k ? 500 : 500 + 1000 * 9.81 * 0.7, mass = run.model.mass[0];
+        verify_close("across x", run.samples[0].a[0], -pressure * 0.3 * 1 / 4 / mass, 1e-9);
+        verify_close("across y", run.samples[0].a[1], -pressure * 0.2 * 1 / 4 / mass, 1e-9);
+        hash[k] = state_hash(&run.state);
+        verify_free(&run);
+    }
+    assert_true(hash[0] == hash[1]);
+}
+
 static void messages(void **state)
 {
     (void)state;
@@ -127,8 +159,8 @@ static void messages(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(gas_above_fluid), cmocka_unit_test(filling),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(gas_above_fluid),      cmocka_unit_test(filling),
                                        cmocka_unit_test(full_and_upside_down), cmocka_unit_test(hydrostatic),
-                                       cmocka_unit_test(messages)};
+                                       cmocka_unit_test(free_nodes),           cmocka_unit_test(messages)};
     return cmocka_run_group_tests_name("fluid and gas", tests, NULL, NULL);
 }
