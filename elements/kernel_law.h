@@ -75,19 +75,32 @@ ALWAYS_INLINE Pack major_value(PackTensor t)
     return 0.5 * (t.a11 + t.a22) + pack_root(half * half + t.a12 * t.a12);
 }
 
+/* A bound of sqrt(a^2 + b^2), at most 8.3 % above it: larger + (sqrt(2) - 1) smaller. */
+ALWAYS_INLINE Pack radius_bound(Pack a, Pack b)
+{
+    Pack u = pack_absolute(a), v = pack_absolute(b), larger = pack_larger(u, v);
+    return 0.5857864376269050 * larger + 0.4142135623730951 * (u + v);
+}
+
 /* A bound of the larger principal value, not below 0: Gershgorin's circles. */
 ALWAYS_INLINE Pack major_bound(PackTensor t)
 {
     return pack_larger(pack_larger(t.a11, t.a22) + pack_absolute(t.a12), pack_of(0.0));
 }
 
-/* Removes negative principal values: the projection of t onto the tensile cone (eq. F7). *major receives the largest
- * principal value before. */
-ALWAYS_INLINE PackTensor remove_compression(PackTensor t, Pack *major)
+/* Squared radius of Mohr's circle, not quite 0. */
+ALWAYS_INLINE Pack radius_square(PackTensor t)
 {
-    Pack mean = 0.5 * (t.a11 + t.a22), half = 0.5 * (t.a11 - t.a22);
-    Pack radius = pack_root(half * half + t.a12 * t.a12 + BILLOW_TINY);
-    Pack pull = 0.5 * pack_larger(mean + radius, pack_of(0.0)), scale = pull / radius;
+    Pack half = 0.5 * (t.a11 - t.a22);
+    return half * half + t.a12 * t.a12 + BILLOW_TINY;
+}
+
+/* Removes negative principal values: the projection of t onto the tensile cone (eq. F7). square, by_radius: of Mohr's
+ * circle of t. *major receives the largest principal value before. */
+ALWAYS_INLINE PackTensor remove_compression(PackTensor t, Pack square, Pack by_radius, Pack *major)
+{
+    Pack mean = 0.5 * (t.a11 + t.a22), half = 0.5 * (t.a11 - t.a22), radius = square * by_radius;
+    Pack pull = 0.5 * pack_larger(mean + radius, pack_of(0.0)), scale = pull * by_radius;
     PackTensor uniaxial = {pull + scale * half, pull - scale * half, scale * t.a12};
     *major = mean + radius;
     return tensor_where_positive(radius - mean, uniaxial, t); /* nothing to remove: keep the very bits */
@@ -178,32 +191,53 @@ typedef struct BiotState {
     Pack wide;                /* l1/l2 */
 } BiotState;
 
-/* U = (C + J 1)/tr U with tr U = sqrt(tr C + 2 J) (eq. F1): no eigenvectors. */
+/* tr C and det C, kept away from 0. */
+ALWAYS_INLINE Pack biot_trace(PackTensor c)
+{
+    return pack_larger(c.a11 + c.a22, pack_of(BILLOW_LEAST_SQUARED_STRETCH));
+}
+
+ALWAYS_INLINE Pack biot_determinant(PackTensor c)
+{
+    return pack_larger(c.a11 * c.a22 - c.a12 * c.a12, BILLOW_LEAST_SQUARED_STRETCH * biot_trace(c));
+}
+
+/* U = (C + J 1)/tr U with tr U = sqrt(tr C + 2 J) (eq. F1): no eigenvectors. jacobian: J. */
+ALWAYS_INLINE BiotState biot_state_from(PackTensor c, Pack jacobian, Pack by_jacobian, Pack by_sum)
+{
+    BiotState f = {.by_sum = by_sum, .by_jacobian = by_jacobian};
+    f.stretch.a11 = (c.a11 + jacobian) * by_sum;
+    f.stretch.a22 = (c.a22 + jacobian) * by_sum;
+    f.stretch.a12 = c.a12 * by_sum;
+    f.wide = (0.5 * biot_trace(c) + radius_bound(0.5 * (c.a11 - c.a22), c.a12)) * by_jacobian;
+    return f;
+}
+
 ALWAYS_INLINE BiotState biot_state(PackTensor c)
 {
-    BiotState f;
-    Pack half = 0.5 * (c.a11 - c.a22), trace = pack_larger(c.a11 + c.a22, pack_of(BILLOW_LEAST_SQUARED_STRETCH));
-    Pack det = pack_larger(c.a11 * c.a22 - c.a12 * c.a12, BILLOW_LEAST_SQUARED_STRETCH * trace);
-    f.by_jacobian = pack_reciprocal_root(det);
-    Pack jacobian = det * f.by_jacobian;
-    f.by_sum = 1.0 / pack_root(trace + 2.0 * jacobian);
-    f.stretch.a11 = (c.a11 + jacobian) * f.by_sum;
-    f.stretch.a22 = (c.a22 + jacobian) * f.by_sum;
-    f.stretch.a12 = c.a12 * f.by_sum;
-    f.wide = (0.5 * trace + pack_root(half * half + c.a12 * c.a12)) * f.by_jacobian;
-    return f;
+    Pack det = biot_determinant(c), by_jacobian = pack_reciprocal_root(det), jacobian = det * by_jacobian;
+    return biot_state_from(c, jacobian, by_jacobian, pack_reciprocal_root(biot_trace(c) + 2.0 * jacobian));
+}
+
+/* Biot stress before the tension field: T = D : (U - 1) (eq. F4). */
+ALWAYS_INLINE PackTensor biot_elastic(const PlaneModuli *moduli, PackTensor u)
+{
+    PackTensor e = {u.a11 - 1.0, u.a22 - 1.0, u.a12};
+    return apply_moduli(moduli, e);
 }
 
 /* Biot stress T = D : (U - 1), the fabric's share with the compression removed, the liner's as it is (eq. F4, F6, F7).
  * *major: largest principal stress of the fabric. */
 ALWAYS_INLINE PackTensor biot_stress(const FabricLaw *law, bool field, bool liner, PackTensor u, Pack *major)
 {
-    PackTensor e = {u.a11 - 1.0, u.a22 - 1.0, u.a12}, t = apply_moduli(&law->fabric, e);
-    if (field)
-        t = remove_compression(t, major);
-    else
+    PackTensor t = biot_elastic(&law->fabric, u);
+    if (field) {
+        Pack square = radius_square(t);
+        t = remove_compression(t, square, pack_reciprocal_root(square), major);
+    } else {
         *major = major_value(t);
-    if (liner) t = add_tensors(t, apply_moduli(&law->liner, e));
+    }
+    if (liner) t = add_tensors(t, biot_elastic(&law->liner, u));
     return t;
 }
 

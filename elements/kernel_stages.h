@@ -35,7 +35,8 @@ enum {
 /* Where the constants and histories of one pack of points lie. */
 typedef struct PointPlace {
     const double *point, *tail; /* elements/kernels.h */
-    double *history;
+    double *metric;             /* C of the last step */
+    float *stress;              /* S of the last step */
 } PointPlace;
 
 /* A pack of points: what comes in and what the stages leave. */
@@ -74,13 +75,12 @@ ALWAYS_INLINE PackTensor natural_directions(const double *point, PackTensor s)
     return p;
 }
 
-/* FORM 0 and 1 (eq. F1 to F7); the frequency by (E22). */
+/* FORM 0 and 1: the second Piola-Kirchhoff stress from the Biot stress t (eq. F5); the frequency by (E22). major:
+ * largest principal stress of the fabric. */
 ALWAYS_INLINE PackTensor stress_biot(int mode, const LawInput *in, const PointPlace *place, const BiotState *f,
-                                     PointPack *p)
+                                     PackTensor t, Pack major, PointPack *p)
 {
-    Pack major;
-    PackTensor s =
-        pull_back_biot(biot_stress(&in->law, mode & MODE_TENSION_FIELD, mode & MODE_LINER, f->stretch, &major), f);
+    PackTensor s = pull_back_biot(t, f);
     Pack reference = lane_values(place->tail, GEOMETRY_RATE);
     Pack stretched = f->wide * reference;
     /* a slack element keeps its reference frequency, or what its liner has: it may be taut in the next cycle */
@@ -114,38 +114,78 @@ ALWAYS_INLINE PackTensor stress_green(int mode, const LawInput *in, const PointP
 /* Damping and the stress-work ledger: dW = (S_n + S_n+1)/2 : (E_n+1 - E_n), 2 dE = dC (eq. E12 to E14). */
 ALWAYS_INLINE PackTensor keep_history(int mode, const LawInput *in, const PointPlace *place, PackTensor s, PointPack *p)
 {
-    double *h = place->history;
-    PackTensor change = {p->c.a11 - lane_values(h, 0), p->c.a22 - lane_values(h, 1), p->c.a12 - lane_values(h, 2)};
+    PackTensor change = {p->c.a11 - lane_values(place->metric, 0), p->c.a22 - lane_values(place->metric, 1),
+                         p->c.a12 - lane_values(place->metric, 2)};
     if (in->law.damping > 0.0) {
         /* DAMP 2/omega / dt of the strain rate (eq. E12); lanes beyond the last element have no frequency */
-        Pack factor =
-            (in->law.damping * in->inverse_step) / pack_root(lane_values(place->tail, GEOMETRY_RATE) + BILLOW_TINY);
+        Pack square = lane_values(place->tail, GEOMETRY_RATE),
+             factor = pack_where_positive(
+                 square, (in->law.damping * in->inverse_step) / pack_root(square + BILLOW_TINY), pack_of(0.0));
         PackTensor rate = {factor * change.a11, factor * change.a22, factor * change.a12};
         s = add_tensors(s, apply_moduli(&in->law.whole, rate));
     }
-    PackTensor sum = {s.a11 + lane_values(h, 3), s.a22 + lane_values(h, 4), s.a12 + lane_values(h, 5)};
+    PackTensor sum = {s.a11 + pack_load_single(place->stress), s.a22 + pack_load_single(place->stress + LANES),
+                      s.a12 + pack_load_single(place->stress + 2 * LANES)};
     Pack work = (0.25 * in->count_work) * lane_values(place->point, GEOMETRY_WEIGHT) * contract(sum, change);
     if (mode & (MODE_BIOT | MODE_LOGARITHMIC))
         p->energy = work;
     else
         p->viscous = work; /* less the stored energy's change this is what was dissipated */
-    const Pack kept[HISTORY_POINT_SIZE] = {p->c.a11, p->c.a22, p->c.a12, s.a11, s.a22, s.a12};
-    for (int i = 0; i < HISTORY_POINT_SIZE; i++) pack_store(h + (ptrdiff_t)i * LANES, kept[i]);
+    const Pack metric[] = {p->c.a11, p->c.a22, p->c.a12}, stress[] = {s.a11, s.a22, s.a12};
+    for (int i = 0; i < HISTORY_POINT_SIZE; i++) {
+        pack_store(place->metric + (ptrdiff_t)i * LANES, metric[i]);
+        pack_store_single(place->stress + (ptrdiff_t)i * LANES, stress[i]);
+    }
     return s;
+}
+
+/* FORM 0 and 1 (eq. F1 to F7) from C to the natural stress: a stage for each root. */
+ALWAYS_INLINE void natural_stress_biot(int mode, const LawInput *in, int count, const PointPlace *place,
+                                       PointPack *restrict p)
+{
+    BiotState state[STREAMS];
+    PackTensor t[STREAMS];
+    Pack square[STREAMS], root[STREAMS], jacobian[STREAMS], by_jacobian[STREAMS], major;
+    int whole = (count + PACKS_TOGETHER - 1) / PACKS_TOGETHER * PACKS_TOGETHER;
+    for (int i = count; i < whole; i++) square[i] = pack_of(1.0);
+    for (int i = 0; i < count; i++) square[i] = biot_determinant(p[i].c);
+    pack_reciprocal_roots(whole, square, by_jacobian);
+    for (int i = 0; i < count; i++) {
+        jacobian[i] = square[i] * by_jacobian[i];
+        square[i] = biot_trace(p[i].c) + 2.0 * jacobian[i];
+    }
+    pack_reciprocal_roots(whole, square, root);
+    for (int i = 0; i < count; i++) {
+        state[i] = biot_state_from(p[i].c, jacobian[i], by_jacobian[i], root[i]);
+        t[i] = biot_elastic(&in->law.fabric, state[i].stretch);
+        if (mode & MODE_TENSION_FIELD) square[i] = radius_square(t[i]);
+    }
+    if (mode & MODE_TENSION_FIELD) pack_reciprocal_roots(whole, square, root);
+    for (int i = 0; i < count; i++) {
+        if (mode & MODE_TENSION_FIELD)
+            t[i] = remove_compression(t[i], square[i], root[i], &major);
+        else
+            major = pack_of(0.0);
+        if (mode & MODE_LINER) t[i] = add_tensors(t[i], biot_elastic(&in->law.liner, state[i].stretch));
+        PackTensor s = stress_biot(mode, in, &place[i], &state[i], t[i], major, &p[i]);
+        p[i].viscous = pack_of(0.0);
+        if (mode & MODE_HISTORY) s = keep_history(mode, in, &place[i], s, &p[i]);
+        p[i].p = natural_directions(place[i].point, s);
+    }
 }
 
 /* From C to the natural stress of count packs of points. */
 ALWAYS_INLINE void natural_stress(int mode, const LawInput *in, int count, const PointPlace *place,
                                   PointPack *restrict p)
 {
-    BiotState state[STREAMS];
-    if (mode & MODE_BIOT)
-        for (int i = 0; i < count; i++) state[i] = biot_state(p[i].c);
+    if (mode & MODE_BIOT) {
+        natural_stress_biot(mode, in, count, place, p);
+        return;
+    }
     for (int i = 0; i < count; i++) {
         p[i].viscous = pack_of(0.0);
-        PackTensor s = mode & MODE_BIOT          ? stress_biot(mode, in, &place[i], &state[i], &p[i])
-                       : mode & MODE_LOGARITHMIC ? stress_logarithmic(in, &place[i], &p[i])
-                                                 : stress_green(mode, in, &place[i], &p[i]);
+        PackTensor s = mode & MODE_LOGARITHMIC ? stress_logarithmic(in, &place[i], &p[i])
+                                               : stress_green(mode, in, &place[i], &p[i]);
         if (mode & MODE_HISTORY) s = keep_history(mode, in, &place[i], s, &p[i]);
         p[i].p = natural_directions(place[i].point, s);
     }

@@ -124,20 +124,33 @@ static int kernel_mode(const ElementGroup *group)
 
 /* Nodes, rows, constants and histories of one pack of elements. */
 typedef struct ElementPlace {
-    const int32_t *node, *row; /* of the first corner; the next corner's are LANES further */
-    const double *geometry;
-    double *history;
+    const int32_t *node, *row;     /* of the first corner; the next corner's are LANES further */
+    const double *geometry, *tail; /* points, and what comes after them */
+    double *metric;                /* history */
+    float *stress;
 } ElementPlace;
 
-ALWAYS_INLINE ElementPlace find_place(const KernelInput *input, int block, int pack, int corners)
+ALWAYS_INLINE ElementPlace find_place(const KernelInput *input, int block, int pack, int corners, int points)
 {
     const ElementGroup *group = input->group;
     ptrdiff_t lane = (ptrdiff_t)pack * PACK_WIDTH, first = (ptrdiff_t)block * LANES;
+    const double *geometry = group->geometry + first * group->geometry_size + lane;
+    double *history = input->history + group->history_offset + first * group->history_size;
     ElementPlace place = {.node = group->node + first * corners + lane,
                           .row = group->row + first * corners + lane,
-                          .geometry = group->geometry + first * group->geometry_size + lane,
-                          .history = input->history + group->history_offset + first * group->history_size + lane};
+                          .geometry = geometry,
+                          .tail = geometry + (ptrdiff_t)points * GEOMETRY_POINT_SIZE * LANES,
+                          .metric = history + lane,
+                          .stress = (float *)(void *)(history + (ptrdiff_t)points * HISTORY_POINT_SIZE * LANES) + lane};
     return place;
+}
+
+ALWAYS_INLINE PointPlace point_place(const ElementPlace *place, int point)
+{
+    PointPlace at = {place->geometry + (ptrdiff_t)point * GEOMETRY_POINT_SIZE * LANES, place->tail,
+                     place->metric + (ptrdiff_t)point * HISTORY_POINT_SIZE * LANES,
+                     place->stress + (ptrdiff_t)point * HISTORY_POINT_SIZE * LANES};
+    return at;
 }
 
 /* Packs of the blocks that go through the stages together, from this block on. */
@@ -224,10 +237,9 @@ ALWAYS_INLINE void triangle_blocks(int mode, const KernelInput *input, ChunkSums
         ElementPlace place[STREAMS];
         int streams = count_streams(input, block);
         for (int i = 0; i < streams; i++) {
-            place[i] = find_place(input, block + i / PACKS, i % PACKS, 3);
-            const double *tail = place[i].geometry + GEOMETRY_POINT_SIZE * LANES;
-            point[i] = (PointPlace){place[i].geometry, tail, place[i].history};
-            triangle_area(input, &place[i], lane_values(tail, GEOMETRY_SIGN), i, &t[i], &packs);
+            place[i] = find_place(input, block + i / PACKS, i % PACKS, 3, 1);
+            point[i] = point_place(&place[i], 0);
+            triangle_area(input, &place[i], lane_values(place[i].tail, GEOMETRY_SIGN), i, &t[i], &packs);
             p[i].c = triangle_metric(place[i].geometry, &t[i]);
         }
         natural_stress(mode, &in, streams, point, p);
@@ -385,20 +397,17 @@ ALWAYS_INLINE void quad_full_pack(int mode, const KernelInput *input, const LawI
 {
     const double gauss = 0.57735026918962576, xi[] = {-gauss, gauss, gauss, -gauss},
                  eta[] = {-gauss, -gauss, gauss, gauss};
-    ElementPlace place = find_place(input, block, pack, 4);
-    const double *tail = place.geometry + QUAD_POINTS * GEOMETRY_POINT_SIZE * LANES;
+    ElementPlace place = find_place(input, block, pack, 4, QUAD_POINTS);
     QuadPack q;
     PointPack p[QUAD_POINTS];
     PointPlace point[QUAD_POINTS];
-    for (int i = 0; i < QUAD_POINTS; i++)
-        point[i] = (PointPlace){place.geometry + i * GEOMETRY_POINT_SIZE * LANES, tail,
-                                place.history + i * HISTORY_POINT_SIZE * LANES};
+    for (int i = 0; i < QUAD_POINTS; i++) point[i] = point_place(&place, i);
     quad_gradients(input, &place, &q);
-    if (mode & MODE_BIOT) free_hourglass(tail + GEOMETRY_TAIL_SIZE * LANES, &q);
+    if (mode & MODE_BIOT) free_hourglass(place.tail + GEOMETRY_TAIL_SIZE * LANES, &q);
     quad_metrics(mode, place.geometry, &q, xi, eta, p);
     natural_stress(mode, in, QUAD_POINTS, point, p);
     quad_stress_forces(mode, p, xi, eta, &q);
-    quad_area(lane_values(tail, GEOMETRY_SIGN), pack, &q, sums);
+    quad_area(lane_values(place.tail, GEOMETRY_SIGN), pack, &q, sums);
     quad_add(input, &place, &q);
     p[0].energy = (p[0].energy + p[1].energy) + (p[2].energy + p[3].energy);
     p[0].viscous = (p[0].viscous + p[1].viscous) + (p[2].viscous + p[3].viscous);
@@ -466,9 +475,9 @@ ALWAYS_INLINE void quad_one_blocks(int mode, const KernelInput *input, ChunkSums
         ElementPlace place[STREAMS];
         int streams = count_streams(input, block);
         for (int i = 0; i < streams; i++) {
-            place[i] = find_place(input, block + i / PACKS, i % PACKS, 4);
-            const double *tail = place[i].geometry + GEOMETRY_POINT_SIZE * LANES;
-            point[i] = (PointPlace){place[i].geometry, tail, place[i].history};
+            place[i] = find_place(input, block + i / PACKS, i % PACKS, 4, 1);
+            const double *tail = place[i].tail;
+            point[i] = point_place(&place[i], 0);
             quad_gradients(input, &place[i], &quad[i]);
             quad_area(lane_values(tail, GEOMETRY_SIGN), i, &quad[i], &packs);
             p[i].c = material_metric(
@@ -495,7 +504,7 @@ static void kernel_quad_one(const KernelInput *input, ChunkSums *sums)
 
 static void surface_triangle(const KernelInput *input, int block, int pack, PackSums *sums)
 {
-    ElementPlace place = find_place(input, block, pack, 3);
+    ElementPlace place = find_place(input, block, pack, 3, 0);
     TrianglePack t;
     for (int k = 0; k < 9; k++) t.force[k / 3][k % 3] = pack_of(0.0);
     triangle_area(input, &place, pack_load(place.geometry), pack, &t, sums);
@@ -504,7 +513,7 @@ static void surface_triangle(const KernelInput *input, int block, int pack, Pack
 
 static void surface_quad(const KernelInput *input, int block, int pack, PackSums *sums)
 {
-    ElementPlace place = find_place(input, block, pack, 4);
+    ElementPlace place = find_place(input, block, pack, 4, 0);
     QuadPack q;
     for (int k = 0; k < 12; k++) q.force[k / 3][k % 3] = pack_of(0.0);
     quad_gradients(input, &place, &q);

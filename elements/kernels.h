@@ -32,8 +32,15 @@ enum {
     GEOMETRY_HOURGLASS_SIZE,
 };
 
-/* History per point and lane: C (11, 22, 12) and second Piola-Kirchhoff stress of the last step. */
-enum { HISTORY_POINT_SIZE = 6 };
+/* History of a block: C (11, 22, 12) of the last step at each point, then its second Piola-Kirchhoff stress in single
+ * precision: the stress only weighs the work of one step (eq. E14), so that its rounding is lost in the ledger. */
+enum { HISTORY_POINT_SIZE = 3 };
+
+/* Doubles per lane of the history of an element with so many points. */
+static inline int history_size(int points)
+{
+    return points * HISTORY_POINT_SIZE + (points * HISTORY_POINT_SIZE + 1) / 2;
+}
 
 /* Corner sums: one row for each node of a segment (Model.row_start) [doubles]: the stress force, one unused, the area
  * vector that takes the pressure, one unused. A row fills a cache line. */

@@ -38,6 +38,19 @@ ALWAYS_INLINE void pack_store(double *to, Pack value)
     *(Pack *)(void *)to = value;
 }
 
+typedef float PackFloat __attribute__((vector_size(4 * PACK_WIDTH)));
+
+/* PACK_WIDTH numbers kept in single precision, aligned as such. */
+ALWAYS_INLINE Pack pack_load_single(const float *from)
+{
+    return __builtin_convertvector(*(const PackFloat *)(const void *)from, Pack);
+}
+
+ALWAYS_INLINE void pack_store_single(float *to, Pack value)
+{
+    *(PackFloat *)(void *)to = __builtin_convertvector(value, PackFloat);
+}
+
 /* a > b ? a : b; b where either is not a number. pack_root: square root. pack_where_positive: x > 0 ? yes : no. */
 #if BILLOW_KERNEL_LEVEL >= 4
 ALWAYS_INLINE Pack pack_larger(Pack a, Pack b)
@@ -100,6 +113,28 @@ ALWAYS_INLINE Pack pack_reciprocal_root(Pack x)
 #pragma GCC unroll 4
     for (int i = 0; i < 4; i++) y *= 1.5 - (half * y) * y;
     return y;
+}
+
+enum { PACKS_TOGETHER = 4 };
+
+/* The same of several packs at a time, whose steps do not wait for each other. count: a multiple of PACKS_TOGETHER. */
+ALWAYS_INLINE void pack_reciprocal_roots(int count, const Pack *x, Pack *root)
+{
+    for (int first = 0; first < count; first += PACKS_TOGETHER) {
+        Pack half[PACKS_TOGETHER], y[PACKS_TOGETHER];
+#pragma GCC unroll 4
+        for (int j = 0; j < PACKS_TOGETHER; j++) {
+            half[j] = 0.5 * x[first + j];
+            y[j] = (Pack)(0x5FE6EB50C7B537A9u - ((PackBits)x[first + j] >> 1));
+        }
+#pragma GCC unroll 4
+        for (int i = 0; i < 4; i++) {
+#pragma GCC unroll 4
+            for (int j = 0; j < PACKS_TOGETHER; j++) y[j] *= 1.5 - (half[j] * y[j]) * y[j];
+        }
+#pragma GCC unroll 4
+        for (int j = 0; j < PACKS_TOGETHER; j++) root[first + j] = y[j];
+    }
 }
 
 #endif

@@ -50,7 +50,7 @@ static void place_groups(Model *m)
         group->geometry_size = geometry_size(group->kind, group->law);
         group->has_history = group->law == LAW_BIOT || group->law == LAW_LOGARITHMIC ||
                              (group->law == LAW_GREEN && group->material.damping > 0.0);
-        group->history_size = group->has_history ? group->point_count * HISTORY_POINT_SIZE : 0;
+        group->history_size = group->has_history ? history_size(group->point_count) : 0;
         group->first_element = m->padded_count;
         group->first_chunk = m->chunk_count;
         group->history_offset = m->history_size;

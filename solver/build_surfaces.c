@@ -157,13 +157,19 @@ static int compare_int32(const void *a, const void *b)
 /* Nodes and parts on the bag's surface, each once. */
 static int list_bag(Builder *b, Airbag *bag, const FacetList *list)
 {
-    bag->node = builder_alloc(b, 4 * list->count, sizeof *bag->node);
+    size_t corners = 4 * list->count, count = 0;
+    int32_t *corner = memory_alloc(corners + 1, sizeof *corner);
+    if (!corner) return -1;
+    memcpy(corner, list->node, corners * sizeof *corner);
+    qsort(corner, corners, sizeof *corner, compare_int32);
+    for (size_t i = 0; i < corners; i++)
+        if (i == 0 || corner[i] != corner[i - 1]) corner[count++] = corner[i];
+    bag->node = builder_alloc(b, count + 1, sizeof *bag->node);
     bag->part = builder_alloc(b, (size_t)b->model->part_count + 1, sizeof *bag->part);
+    if (bag->node) memcpy(bag->node, corner, count * sizeof *corner);
+    bag->node_count = (int)count;
+    memory_free(corner);
     if (!bag->node || !bag->part) return -1;
-    memcpy(bag->node, list->node, 4 * list->count * sizeof *bag->node);
-    qsort(bag->node, 4 * list->count, sizeof *bag->node, compare_int32);
-    for (size_t i = 0; i < 4 * list->count; i++)
-        if (i == 0 || bag->node[i] != bag->node[i - 1]) bag->node[bag->node_count++] = bag->node[i];
     for (int p = 0; p < b->model->part_count; p++) {
         bool on = false;
         for (size_t i = 0; !on && i < list->count; i++) on = b->records[list->record[i]].part == p;
