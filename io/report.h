@@ -24,6 +24,10 @@ void report_write_conditions(const Model *model, FILE *stream);
 /* Rigid walls with the numbers of their nodes; nothing without one. */
 void report_write_walls(const Model *model, FILE *stream);
 
+/* Shells of which at least one is deformable and that go through each other without sharing a node, at the deck's
+ * coordinates: how many pairs, the deepest and its place. 0, or -1 without memory. */
+int report_write_crossings(const Model *model, FILE *stream);
+
 /* The stable step of the deck: the limit smallest elements in their reference state, mass added by DT2MS. */
 void report_write_steps(const Model *model, int limit, FILE *stream);
 

@@ -20,6 +20,9 @@ static void print_report(Accepted *accepted, const char *deck)
     report_write_airbags(model, &accepted->state, stdout);
     report_write_conditions(model, stdout);
     report_write_walls(model, stdout);
+    if (report_write_crossings(model, stdout))
+        diagnostics_add(&accepted->diagnostics, SEVERITY_ENVIRONMENT, BILLOW_NO_SOURCE, NULL,
+                        "not enough memory to look for intersections of the mesh");
     report_write_plan(model, &plan, stdout);
     report_write_steps(model, LISTED_STEPS, stdout);
     report_write_messages(&accepted->diagnostics, stdout);
