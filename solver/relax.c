@@ -170,7 +170,8 @@ static int run_static(const Model *phase, const double *pressure, FILE *progress
                             .factorisations = result.factorisations,
                             .residual = result.residual,
                             .load = result.load};
-    if (status > 0) not_converged(&system, &result, x, failure);
+    report->stopped = result.stopped;
+    if (status > 0 && !result.stopped) not_converged(&system, &result, x, failure);
     if (status < 0)
         fail(failure, "use a smaller mesh or a machine with more memory", "no memory for the static equilibrium");
     relax_system_free(&system);
@@ -221,7 +222,7 @@ int relax_run(const Model *phase, const Model *model, int threads, FILE *progres
         if (status == 0) status = check_walls(phase, x, failure);
         if (status == 0) status = take_over(phase, model, x, state, report);
     }
-    if (status && !failure->failed)
+    if (status && !failure->failed && !report->stopped)
         fail(failure, "use a smaller mesh or a machine with more memory", "no memory for the phase before the run");
     memory_free(x);
     memory_free(pressure);

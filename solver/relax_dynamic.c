@@ -7,6 +7,7 @@
 
 #include "solver/memory.h"
 #include "solver/relax_system.h"
+#include "solver/signals.h"
 
 /* Runs that never settle end here unless DRTERM ends them. */
 enum { MOST_CYCLES = 20000000 };
@@ -26,12 +27,12 @@ typedef struct Relaxation {
     int threads;
 } Relaxation;
 
-static bool never_due(void *user, const Model *model, const State *state, bool last)
+static bool due_at_end(void *user, const Model *model, const State *state, bool last)
 {
     (void)user;
     (void)model;
     (void)state;
-    return last;
+    return last || signals_stop_requested();
 }
 
 static int emit_nothing(void *user, const Model *model, const State *state, const StepView *view, bool last)
@@ -41,7 +42,7 @@ static int emit_nothing(void *user, const Model *model, const State *state, cons
     (void)state;
     (void)view;
     (void)last;
-    return 0;
+    return signals_stop_requested() ? 1 : 0;
 }
 
 /* Bags become reservoirs at the pressure that their law starts with; their gas does nothing else. */
@@ -200,15 +201,16 @@ static void report_failure(const Relaxation *r, Failure *failure)
         "raise DRTOL, lower DRFCTR (more damping), let it run longer (DRTERM), or solve the equilibrium (IDRFLG = 5)");
 }
 
-/* 0 settled or DRTERM reached, -1 failed. */
+/* 0 settled or DRTERM reached, 1 stopped by the user, -1 failed. */
 static int settle(Relaxation *r, FILE *progress, Failure *failure)
 {
-    const RunHooks hooks = {.due = never_due, .emit = emit_nothing};
+    const RunHooks hooks = {.due = due_at_end, .emit = emit_nothing};
     const RelaxControl *relax = &r->model.relax;
     const Clock *clock = r->state.clock;
     r->model.end_cycle = 1; /* a first cycle tells the step */
     for (;;) {
         if (solver_run(&r->model, &r->state, r->threads, &hooks, &r->times, failure)) return -1;
+        if (signals_stop_requested()) return 1;
         double kinetic = kinetic_energy(r);
         if (progress && clock->cycle > 1)
             fprintf(progress, "%8lld cycles  kinetic energy %.3e of its largest\n", (long long)clock->cycle,
@@ -234,6 +236,7 @@ int relax_dynamic(const Model *phase, const double *pressure, int threads, FILE 
         status = settle(&r, progress, failure);
         memcpy(x, r.state.x, 3 * (size_t)phase->node_count * sizeof *x);
         report->cycles = (long)r.state.clock->cycle;
+        report->stopped = status == 1;
         report->residual = r.largest > 0.0 ? kinetic_energy(&r) / r.largest : 0.0;
     }
     release(&r);

@@ -4,8 +4,8 @@
 
 #include "solver/relax.h"
 
-/* From x (node_count x 3) to equilibrium, in place. pressure: of each bag (airbag_count). 0, or -1 with *failure set.
- */
+/* From x (node_count x 3) to equilibrium, in place. pressure: of each bag (airbag_count). 0; 1: the
+ * user asked to stop; -1 with *failure set. */
 int relax_dynamic(const Model *phase, const double *pressure, int threads, FILE *progress, double *x,
                   RelaxReport *report, Failure *failure);
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "solver/memory.h"
+#include "solver/signals.h"
 
 enum { HALVINGS = 3 };
 #define LEAST_SHIFT 1e-14
@@ -141,7 +142,8 @@ static int iterate(Newton *n)
             fprintf(n->options->progress, "%4d %4d  residual %.3e  shift %.1e\n", result->steps, result->factorisations,
                     result->residual, n->shift);
         if (result->residual <= n->options->tolerance) return 0;
-        if (result->factorisations >= n->options->iterations || n->shift >= LARGEST_SHIFT) return 1;
+        result->stopped = signals_stop_requested();
+        if (result->stopped || result->factorisations >= n->options->iterations || n->shift >= LARGEST_SHIFT) return 1;
         int status = find_step(n);
         if (status) return status;
         if (search(n, &load) == 0.0) continue;

@@ -17,6 +17,7 @@ typedef struct NewtonResult {
     double load;     /* size of the loads; without any, of the stress forces at the start [force] */
     int worst;       /* node of the largest residual, -1 none */
     bool far;        /* a node went further than the model is large */
+    bool stopped;    /* the user asked to stop */
 } NewtonResult;
 
 /* From x (node_count x 3) to equilibrium, in place. 0; 1: not converged; -1: out of memory. */

@@ -117,7 +117,8 @@ static void relax(Run *run)
     char seconds[32], text[200];
     FILE *progress = run->options->quiet ? NULL : stdout;
     if (progress) fprintf(progress, "static equilibrium before the run:\n");
-    relax_run(phase, model, run->threads, progress, &run->deck.state, &report, &run->failure);
+    const int missing = relax_run(phase, model, run->threads, progress, &run->deck.state, &report, &run->failure);
+    run->recorder.stopped_by_user = report.stopped;
     progress_format_seconds(report.seconds, seconds, sizeof seconds);
     if (model->relax.kind == RELAX_STATIC)
         snprintf(text, sizeof text,
@@ -127,8 +128,9 @@ static void relax(Run *run)
         snprintf(text, sizeof text,
                  "dynamic relaxation: %ld cycles, kinetic energy %.3g of its largest, stored energy %.6g, %s",
                  report.cycles, report.residual, report.energy, seconds);
-    if (!run->failure.failed) log_write_event(&run->log, run->deck.state.clock, "%s", text);
-    if (progress && !run->failure.failed) fprintf(progress, "%s\n", text);
+    if (report.stopped) snprintf(text, sizeof text, "stopped by a signal before equilibrium was found");
+    if (!missing || report.stopped) log_write_event(&run->log, run->deck.state.clock, "%s", text);
+    if (progress && (!missing || report.stopped)) fprintf(progress, "%s\n", text);
     fflush(stdout);
 }
 
@@ -234,7 +236,7 @@ int run_deck(const Options *options)
         const size_t printed = run.deck.diagnostics.count;
         print_start(&run);
         relax(&run);
-        if (!run.failure.failed) run_loop(&run);
+        if (!run.failure.failed && !run.recorder.stopped_by_user) run_loop(&run);
         close_outputs(&run, printed);
     }
     const int code = exit_code_of(&run);
