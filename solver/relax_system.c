@@ -1,6 +1,8 @@
 /* Unknowns, sparsity and factor of the static equilibrium. */
+#define _GNU_SOURCE
 #include "solver/relax_system.h"
 
+#include <dlfcn.h>
 #include <math.h>
 #include <string.h>
 
@@ -214,9 +216,22 @@ static int create_matrix(RelaxSystem *s)
     return 0;
 }
 
+/* CHOLMOD and some BLAS libraries have threads of their own, which would wait for each other at every supernode, and
+ * whose number could change bits. */
+static void limit_threads(const char *setter)
+{
+    void *symbol = dlsym(RTLD_DEFAULT, setter);
+    void (*set)(int);
+    if (!symbol) return;
+    memcpy(&set, &symbol, sizeof set);
+    set(1);
+}
+
 static int analyse(RelaxSystem *s)
 {
     cholmod_common *cm = &s->common;
+    limit_threads("omp_set_num_threads");
+    limit_threads("openblas_set_num_threads");
     cm->supernodal = CHOLMOD_SUPERNODAL;
     cm->final_ll = 1;
     cm->nmethods = 2; /* the better of two orderings; without METIS the other is left */
