@@ -97,7 +97,7 @@ def main():
             for shells in (2000, 20000) if quick else (2000, 20000, 200000):
                 for threads in (1, 2):
                     # undamped fabric of FORM 0 does not stay sound for ever: short runs, repeated
-                    cycles = max(50, min(1500, int((4e7 if quick else 2e8) / shells / 4)))
+                    cycles = max(50, min(500 if shells < 20000 else 1500, int((4e7 if quick else 2e8) / shells / 4)))
                     row = measure(build, folder, pattern, shells, threads, cycles, 3 if shells > 100000 else 7)
                     rows.append(row)
                     print(f"{row['element']:10} {row['elements']:7} elements {threads} threads "

@@ -85,6 +85,18 @@ static int fabric_law(Builder *b, const MaterialDefinition *m, bool first_use, P
     return fabric_axis(b, m, part);
 }
 
+/* The compression cut-off of FORM 0 and 1 with a Poisson's ratio has no stored energy (docs/theory.md, Energy). */
+static void warn_of_undamped(Builder *b, const MaterialDefinition *m, const PartRecord *part)
+{
+    const FabricLaw *law = &part->fabric;
+    if (part->law != LAW_BIOT || !law->no_compression || law->damping > 0.0 || law->fabric.d12 == 0.0) return;
+    diagnostics_add(
+        b->diagnostics, SEVERITY_WARNING, m->source, "*MAT_FABRIC",
+        "material %d: FORM = %g with CSE = 1 and DAMP = 0 has no stored energy and may gain some in long runs; "
+        "DAMP = 0.05 keeps it",
+        m->id, (double)m->fabric.form);
+}
+
 /* Is this the first part with its material? Messages about the material come once. */
 static bool is_first_use(const Builder *b, const PartDefinition *definition)
 {
@@ -119,6 +131,7 @@ static int part_law(Builder *b, const PartDefinition *definition, const Material
     switch (m->kind) {
     case MATERIAL_FABRIC:
         if (fabric_law(b, m, is_first_use(b, definition), part)) return -1;
+        if (is_first_use(b, definition)) warn_of_undamped(b, m, part);
         break;
     case MATERIAL_ELASTIC:
         if (section->elform != 5 && section->elform != 9) {

@@ -9,7 +9,7 @@
 #include "solver/signals.h"
 
 static const double look_interval = 0.5;         /* seconds between two looks at d3kil */
-static const double energy_warning_share = 0.02; /* of the largest energy */
+static const double energy_warning_share = 0.02; /* of the largest energy given */
 
 double recorder_energy_error(const Energies *energy)
 {
@@ -26,9 +26,24 @@ static void watch_energy(Recorder *recorder, const State *state)
     if (!(error > energy_warning_share)) return;
     recorder->energy_warned = true;
     diagnostics_add(recorder->diagnostics, SEVERITY_WARNING, BILLOW_NO_SOURCE, NULL,
-                    "cycle %lld, time %.6g: the energy balance is off by %.1f %% of the largest energy; look at "
+                    "cycle %lld, time %.6g: the energy balance is off by %.1f %% of the largest given; look at "
                     "glstat.csv and try a smaller TSSFAC",
                     (long long)state->clock->cycle, state->clock->time, 100.0 * error);
+    log_write_messages(recorder->log);
+}
+
+/* The stress of the shells has given more than it received (docs/theory.md, L8). */
+static void watch_fabric(Recorder *recorder, const Model *model, const State *state)
+{
+    const Energies *energy = state->energy;
+    if (recorder->fabric_warned || !(-energy->internal > model->energy_error_limit * energy->largest)) return;
+    if (state->clock->cycle < energy->judged_from) return;
+    recorder->fabric_warned = true;
+    diagnostics_add(
+        recorder->diagnostics, SEVERITY_WARNING, BILLOW_NO_SOURCE, NULL,
+        "cycle %lld, time %.6g: the stress of the shells has given %.1f %% of the loads' energy more than it "
+        "received: fabric of FORM 0 or 1 with CSE = 1 wants DAMP = 0.05",
+        (long long)state->clock->cycle, state->clock->time, -100.0 * energy->internal / energy->largest);
     log_write_messages(recorder->log);
 }
 
@@ -85,6 +100,7 @@ static bool recorder_due(void *user, const Model *model, const State *state, boo
         serve_switch(recorder, model, state, wall);
     }
     watch_energy(recorder, state);
+    watch_fabric(recorder, model, state);
     if (model->sensor_count > 0) watch_sensors(recorder, model, state);
     progress_update(&recorder->progress, model, state, wall);
     return last || recorder->due || recorder->want_states || recorder->want_checkpoint || recorder->stop;

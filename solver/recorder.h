@@ -28,7 +28,7 @@ typedef struct Recorder {
     unsigned due;                            /* of schedule_due */
     bool stopped_by_user;
     bool write_failed; /* results or checkpoint could not be written: the run ends */
-    bool energy_warned;
+    bool energy_warned, fabric_warned;
     double next_look;         /* wall time of the next look at d3kil */
     double last_time;         /* of the last cycle that was emitted; a run's last cycle always is */
     size_t memory;            /* bytes held when a cycle was last emitted: model, state and buffers */
@@ -41,7 +41,7 @@ RunHooks recorder_hooks(Recorder *recorder);
 /* Writes a checkpoint of the state now. Returns 0, or -1 with an environment error. */
 int recorder_write_checkpoint(Recorder *recorder, const Model *model, const State *state);
 
-/* Share by which the energy balance is off: the two sums' difference over the largest energy so far; 0 when all vanish.
+/* Share by which the energy balance is off: the two sums' difference over the largest given so far; 0 when all vanish.
  */
 double recorder_energy_error(const Energies *energy);
 

@@ -14,11 +14,12 @@ typedef struct Energies {
     double kinetic, internal, hourglass, damping, contact;
     double external_work, airbag_work;
     double initial; /* kinetic + internal at the start */
-    double largest; /* largest total so far, scale of the balance */
+    double largest; /* largest energy given so far, scale of the balance */
     double ratio, ratio_min, ratio_max;
     double airbag_half, external_half; /* works up to the half step after t_n */
     double material_damping;           /* share of damping: DAMP of the laws with a stored energy */
     int64_t lost_cycles;               /* cycles in a row with the balance beyond its limit */
+    int64_t feeding_cycles;            /* cycles in a row with an internal energy far below 0 */
     int64_t judged_from;               /* cycle from which the ratio is formed and judged */
     double mass_damping;               /* the rest */
 } Energies;

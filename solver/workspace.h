@@ -14,6 +14,7 @@
 
 enum {
     BILLOW_NODE_CHUNK = 256,      /* nodes in one fixed partial sum */
+    BILLOW_FEEDING_LIMITS = 10,   /* energy limits: shells that gave more than that feed the motion (eq. L8) */
     BILLOW_LOST_CYCLES = 3,       /* in a row beyond the limit: the balance is lost */
     BILLOW_SETTLING_CYCLES = 100, /* after the gas was last stiffer than the step: likewise */
     BILLOW_SETTLING_LIMIT = 2000, /* but from this cycle on the balance is always judged */

@@ -115,7 +115,7 @@ static void test_energy_warning(void **state)
     set_up(&s);
     ask(&s, false);
     assert_int_equal(s.diagnostics.warnings, 0);
-    s.energy.kinetic = 1.039; /* off by 1.95 % of the largest energy */
+    s.energy.kinetic = 1.039; /* off by 1.95 % of the largest given */
     s.energy.ratio = 2.039 / 2.0;
     ask(&s, false);
     assert_int_equal(s.diagnostics.warnings, 0);
@@ -130,12 +130,34 @@ static void test_energy_warning(void **state)
     assert_true(recorder_energy_error(&(Energies){0}) == 0.0);
 }
 
+static void test_fabric_warning(void **state)
+{
+    (void)state;
+    Scenario s;
+    set_up(&s);
+    s.model.energy_error_limit = 0.1;
+    s.energy = (Energies){.kinetic = 2.19, .internal = -0.19, .external_work = 2.0, .largest = 2.0, .ratio = 1.0};
+    ask(&s, false);
+    assert_int_equal(s.diagnostics.warnings, 0);
+    s.energy.internal = -0.21;
+    s.energy.judged_from = 20; /* not yet */
+    ask(&s, false);
+    assert_int_equal(s.diagnostics.warnings, 0);
+    s.energy.judged_from = 0;
+    ask(&s, false);
+    ask(&s, false);
+    assert_int_equal(s.diagnostics.warnings, 1);
+    assert_non_null(strstr(s.diagnostics.messages[0].text, "10.5 % of the loads' energy"));
+    diagnostics_free(&s.diagnostics);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_asks_when_due),
         cmocka_unit_test(test_switches),
         cmocka_unit_test(test_energy_warning),
+        cmocka_unit_test(test_fabric_warning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

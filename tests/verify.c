@@ -203,7 +203,7 @@ ElementResult verify_element(const VerifyRun *run, int element)
 
 void verify_balance(const VerifyRun *run, double tolerance)
 {
-    verify_near("energy balance over the largest energy", run->imbalance / run->energy, 0, tolerance);
+    verify_near("energy balance over the largest given", run->imbalance / run->energy, 0, tolerance);
 }
 
 void verify_principal(const double stress[6], double principal[2])

@@ -53,7 +53,7 @@ typedef struct VerifyRun {
     double *internal_x; /* its positions in the model's own order */
     int64_t cycles;
     double imbalance; /* largest |held - given| over the recorded cycles */
-    double energy;    /* largest energy of the run */
+    double energy;    /* largest energy given in the run */
 } VerifyRun;
 
 /* Reads and builds. 0, or -1 with the messages in run->diagnostics. run need not be initialised. */
@@ -80,7 +80,7 @@ double verify_mean(const VerifyRun *run, double from, double to, size_t offset);
 /* Cauchy stress xx yy zz xy yz zx of the element with the deck's index at the last emitted cycle. */
 ElementResult verify_element(const VerifyRun *run, int element);
 
-/* Fails the cmocka test if the energy balance was ever off by more than this share of the run's largest energy. */
+/* Fails the cmocka test if the energy balance was ever off by more than this share of the largest energy given. */
 void verify_balance(const VerifyRun *run, double tolerance);
 
 /* Larger and smaller principal value of a plane stress given in global axes (the third is zero). */
