@@ -122,6 +122,26 @@ int airbag_vents(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
     return status;
 }
 
+/* LCMT. The phase before the run ignores the bag unless SIDR of the curve is 1 or 2; with 1 nothing flows in later. */
+static int flow_curve(Builder *b, const AirbagDefinition *bag, Airbag *airbag, int *status)
+{
+    int flow = airbag_curve(b, bag->lcmt, "LCMT", bag->card3, status);
+    if (flow < 0) return flow;
+    int sidr = b->model->curves[flow].sidr, flag = b->definitions->control.relaxation.idrflg;
+    bool phase = b->definitions->control.relaxation.given && (flag == 1 || flag == 5);
+    airbag->idle = b->options->relaxation_phase && sidr == 0;
+    if (b->options->relaxation_phase || !phase) return flow;
+    if (sidr == 0)
+        diagnostics_add(b->diagnostics, SEVERITY_NOTE, bag->card3, "*AIRBAG_WANG_NEFSKE",
+                        "airbag %d has no pressure in dynamic relaxation: the curve LCMT = %d has SIDR = 0", airbag->id,
+                        bag->lcmt);
+    if (sidr != 1) return flow;
+    diagnostics_add(b->diagnostics, SEVERITY_NOTE, bag->card3, "*AIRBAG_WANG_NEFSKE",
+                    "the curve LCMT = %d acts in dynamic relaxation only (SIDR = 1): no gas flows in during the run",
+                    bag->lcmt);
+    return -1;
+}
+
 int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
 {
     GasModel *gas = &airbag->gas;
@@ -129,7 +149,7 @@ int airbag_wang_nefske(Builder *b, const AirbagDefinition *bag, Airbag *airbag)
     gas->kind = GAS_WANG_NEFSKE;
     gas->temperature_curve = airbag_curve(b, bag->lct, "LCT", bag->card3, &status);
     gas->temperature_rate_curve = airbag_curve(b, bag->lcdt, "LCDT", bag->card3, &status);
-    int flow = airbag_curve(b, bag->lcmt, "LCMT", bag->card3, &status);
+    int flow = flow_curve(b, bag, airbag, &status);
     if (bag->tvol > 0.0)
         gas->tank_pressure_curve = flow;
     else

@@ -108,6 +108,7 @@ typedef struct Airbag {
     int function[BILLOW_BAG_FUNCTIONS]; /* indices of the functions that the gas uses (function_count) */
     int function_count;
     double ambient; /* pressure outside: applied pressure = p - ambient */
+    bool idle;      /* of the phase before the run, which ignores it: LCMT has SIDR = 0 */
     Source source;
 } Airbag;
 

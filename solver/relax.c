@@ -105,7 +105,7 @@ static int bag_pressures(const Model *phase, double *pressure)
 {
     State start;
     if (state_create(phase, &start)) return -1;
-    for (int i = 0; i < phase->airbag_count; i++) pressure[i] = start.gas[i].applied;
+    for (int i = 0; i < phase->airbag_count; i++) pressure[i] = phase->airbags[i].idle ? 0.0 : start.gas[i].applied;
     state_free(&start);
     return 0;
 }

@@ -96,6 +96,51 @@ static void dynamic_relaxation(void **state)
     free_relaxed(&automatic);
 }
 
+/* The phase ignores a bag of WANG_NEFSKE unless its curve LCMT is flagged; a flag of 1 leaves the run without inflow.
+ */
+static void flagged_bag(void **state)
+{
+    (void)state;
+    for (int sidr = 0; sidr < 3; sidr++) {
+        Scene scene = {.deck.exact = true};
+        SceneText *deck = &scene.deck;
+        scene_add_sphere(&scene.mesh, 1, SCENE_DIAGONAL, 4, 0.3);
+        scene_begin(deck, "ball", 1e-3, 0.9);
+        scene_write_part(deck, 1, 1, 1, "skin");
+        scene_write_section(deck, 1, 9, 3.5e-4);
+        SceneFabric fabric = scene_isotropic(2, false, 800, 2e8, 0.3);
+        scene_write_fabric(deck, 1, &fabric);
+        scene_write_part_set(deck, 1, 1, (const int[]){1});
+        scene_print(deck,
+                    "*AIRBAG_WANG_NEFSKE\n1,1\n718,1005,300,0,7,0,0,300\n0\n101325,1.2,1,0,2e4\n0\n"
+                    "*DEFINE_CURVE\n7,%d\n0,1\n1,1\n*CONTROL_DYNAMIC_RELAXATION\n100,1e-9,0.98,2e-3,0,0,0,1\n",
+                    sidr);
+        scene_end(deck, &scene.mesh);
+        VerifyRun run;
+        Model phase;
+        Diagnostics again = {0};
+        assert_int_equal(verify_build(&run, deck->text, deck->length, &(VerifyOptions){0}), 0);
+        assert_true(verify_message(&run.diagnostics, SEVERITY_NOTE, "has no pressure in dynamic relaxation") ==
+                    (sidr == 0));
+        assert_true((run.model.airbags[0].gas.mass_flow_curve >= 0) == (sidr != 1));
+        assert_int_equal(model_build(&run.definitions, &(BuildOptions){.relaxation_phase = true}, &phase, &again), 0);
+        RelaxReport report;
+        Failure failure;
+        double before = run.model.airbags[0].closure.volume;
+        assert_int_equal(relax_run(&phase, &run.model, 1, NULL, &run.state, &report, &failure), 0);
+        double grown = run.state.gas[0].volume / before - 1;
+        if (sidr == 0)
+            verify_near("volume of the ignored bag", grown, 0, 1e-12);
+        else
+            verify_between("volume of the flagged bag", grown, 1e-3, 1);
+        verify_near("gauge pressure at the start", run.state.gas[0].applied, 2e4, 1e-6);
+        diagnostics_free(&again);
+        model_free(&phase);
+        verify_free(&run);
+        scene_free(&scene);
+    }
+}
+
 /* A prestressed bag in free flight: the run starts in balance, with the stored energy in its ledger. */
 static void hand_over(void **state)
 {
@@ -216,8 +261,8 @@ static void no_equilibrium(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(dynamic_relaxation), cmocka_unit_test(hand_over),      cmocka_unit_test(hand_over_ledger),
-        cmocka_unit_test(free_mechanisms),    cmocka_unit_test(no_equilibrium),
+        cmocka_unit_test(dynamic_relaxation), cmocka_unit_test(flagged_bag),     cmocka_unit_test(hand_over),
+        cmocka_unit_test(hand_over_ledger),   cmocka_unit_test(free_mechanisms), cmocka_unit_test(no_equilibrium),
     };
     return cmocka_run_group_tests_name("phase before the run", tests, NULL, NULL);
 }
