@@ -31,11 +31,12 @@ void scene_prestressed_cushion(Scene *scene, int n)
     gas.overpressure = 5000;
     gas.inflow_temperature = 293.15;
     gas.initial_temperature = 293.15;
-    scene_write_curve(deck, 1, 2, (const double[]){0, 0, 1, 0});
+    scene_print(deck, "$ SIDR = 2: the bag counts in dynamic relaxation too\n*DEFINE_CURVE\n         1         2\n"
+                      "                 0.0                 0.0\n                 1.0                 0.0\n");
     gas.inflow_curve = 1;
     scene_write_wang_nefske(deck, 1, &gas);
     scene_print(deck,
-                "$ the equilibrium with the curves of SIDR 1 and 2, of which there is none: the bag's pressure alone\n"
+                "$ the equilibrium with the curves of SIDR 1 and 2, and the bags that they flag: its pressure alone\n"
                 "*CONTROL_DYNAMIC_RELAXATION\n"
                 "$   nrcyck     drtol    drfctr    drterm    tssfdr    irelal     edttl    idrflg\n");
     SCENE_CARD(deck, 250, 0.001, 0.995, 0, 0, 0, 0.04, 5);
