@@ -1,6 +1,7 @@
 /* billow: the program's entry. */
 #include <stdio.h>
 
+#include "fold/fold.h"
 #include "solver/billow.h"
 #include "solver/check.h"
 #include "solver/options.h"
@@ -18,6 +19,8 @@ int main(int argc, char **argv)
         return run_deck(&options);
     case COMMAND_CHECK:
         return check_deck(&options);
+    case COMMAND_FOLD:
+        return fold_deck(options.deck, options.folds, options.directory);
     case COMMAND_VERSION:
         printf("billow %s\n", BILLOW_VERSION);
         return BILLOW_EXIT_NORMAL;

@@ -225,6 +225,33 @@ static int parse_words(int argc, char *const *argv, Options *options)
     return 0;
 }
 
+/* billow fold DECK FOLDS [-o FILE] */
+static int parse_fold(int argc, char *const *argv, Options *options)
+{
+    options->command = COMMAND_FOLD;
+    for (int i = 2; i < argc; i++) {
+        const char *word = argv[i];
+        if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
+            options->command = COMMAND_FOLD_HELP;
+            return 0;
+        }
+        if (strcmp(word, "-o") == 0 || strcmp(word, "--output") == 0) {
+            if (i + 1 == argc || !*argv[i + 1]) return refuse(options, "option '%s' needs a value" HINT, word);
+            options->directory = argv[++i];
+        } else if (*word == '-') {
+            return refuse(options, "option '%s' has no meaning for billow fold" HINT, word);
+        } else if (!options->deck) {
+            options->deck = word;
+        } else if (!options->folds) {
+            options->folds = word;
+        } else {
+            return refuse(options, "'%s' is one word too many; write: billow fold DECK FOLDS [-o FILE]", word);
+        }
+    }
+    if (options->folds && *options->deck && *options->folds) return 0;
+    return refuse(options, "a flat deck and a file of folds are needed; write: billow fold DECK FOLDS [-o FILE]");
+}
+
 static bool is_assignment(const char *word)
 {
     const char *equal = strchr(word, '=');
@@ -271,6 +298,7 @@ int options_parse(int argc, char *const *argv, Options *options)
         options->command = *word == 'r' ? COMMAND_RUN : COMMAND_CHECK;
         return parse_words(argc, argv, options);
     }
+    if (strcmp(word, "fold") == 0) return parse_fold(argc, argv, options);
     if (is_assignment(word)) return parse_assignments(argc, argv, options);
     return refuse(options, "unknown command '%s'; to run a deck write: billow run DECK" HINT, word);
 }
@@ -330,6 +358,27 @@ static const char run_help[] =
     "a state) does what LS-DYNA users expect.\n"
     "Exit codes: 0 normal, 1 numerical failure, 2 error in deck or command line, 3 file system or memory.\n";
 
+static const char fold_help[] =
+    "usage: billow fold DECK FOLDS [-o FILE]\n"
+    "\n"
+    "Folds a flat bag and writes the folded deck with the flat bag as *AIRBAG_REFERENCE_GEOMETRY. FOLDS is a text\n"
+    "with one statement a line; # starts a comment:\n"
+    "\n"
+    "  gap LENGTH               distance of layers (needed)\n"
+    "  upper PART ...           parts of the panel above (needed)\n"
+    "  lower PART ...           parts of the panel below (needed)\n"
+    "  thin X Y DX DY up|down [ANGLE]         fold about the line through (X, Y), across (DX, DY), which points\n"
+    "                           to the side that moves; by 180 degrees, or ANGLE for the last fold\n"
+    "  zig-zag X Y DX DY up|down PITCH COUNT  bellows of COUNT lines, PITCH apart\n"
+    "  roll X Y DX DY up|down COUNT           COUNT turns, the first about the line given\n"
+    "  tuck X Y DX DY           the side beyond the line goes in between the panels (before other folds)\n"
+    "  ramp LENGTH, spread LENGTH             from a seam to the full gap; beside creases, where layers slip\n"
+    "                           (each a tenth of the bag by default)\n"
+    "  limit SHARE              largest change of an edge's length accepted (0.2)\n"
+    "\n"
+    "  -o, --output FILE        default: the deck's name without its suffix + \".folded.k\", in the working directory\n"
+    "Exit codes: 0 written, 2 error in deck, folds or command line, 3 file system or memory.\n";
+
 void options_print_help(Command command, FILE *stream)
 {
     if (command == COMMAND_RUN_HELP) {
@@ -342,13 +391,16 @@ void options_print_help(Command command, FILE *stream)
               "time step with its element, and every field that is read but not used. Runs no steps, writes no file.\n"
               "Exit codes: 0 the deck is good, 2 it has errors, 3 file system or memory.\n",
               stream);
+    } else if (command == COMMAND_FOLD_HELP) {
+        fputs(fold_help, stream);
     } else {
         fputs("billow " BILLOW_VERSION ", explicit membrane solver with airbags for LS-DYNA keyword decks\n"
               "\n"
               "usage: billow run DECK [-o DIR] [-j THREADS] [--end-time T] [--restart FILE] [--quiet]\n"
               "       billow check DECK         read, validate and report; no steps, no files\n"
+              "       billow fold DECK FOLDS [-o FILE]    fold a flat bag; writes a deck with its reference\n"
               "       billow i=DECK ncpu=2 endtime=T jobid=NAME r=FILE      LS-DYNA's spelling of run\n"
-              "       billow --version | --help | run --help | check --help\n",
+              "       billow --version | --help | run --help | check --help | fold --help\n",
               stream);
     }
 }

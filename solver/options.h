@@ -10,10 +10,12 @@
 typedef enum Command {
     COMMAND_RUN,
     COMMAND_CHECK,
+    COMMAND_FOLD,
     COMMAND_VERSION,
     COMMAND_HELP,
     COMMAND_RUN_HELP,
     COMMAND_CHECK_HELP,
+    COMMAND_FOLD_HELP,
 } Command;
 
 enum { BILLOW_OPTION_NOTES = 4, BILLOW_OPTION_TEXT = 320 };
@@ -21,8 +23,9 @@ enum { BILLOW_OPTION_NOTES = 4, BILLOW_OPTION_TEXT = 320 };
 /* Strings point into argv. */
 typedef struct Options {
     Command command;
-    const char *deck;      /* run, check */
-    const char *directory; /* -o DIR, NULL: from the deck's or the job's name */
+    const char *deck;      /* run, check, fold */
+    const char *folds;     /* fold: the file of folds */
+    const char *directory; /* -o DIR (fold: FILE), NULL: from the deck's or the job's name */
     const char *job;       /* jobid=NAME, NULL: none */
     const char *restart;   /* --restart FILE, NULL: from time 0 */
     int threads;           /* -j, 0: not given */
@@ -36,7 +39,7 @@ typedef struct Options {
 /* Reads the command line. Returns 0, or -1 with options->error set: a usage error, exit BILLOW_EXIT_INPUT. */
 int options_parse(int argc, char *const *argv, Options *options);
 
-/* Prints the help text of COMMAND_HELP, COMMAND_RUN_HELP or COMMAND_CHECK_HELP. */
+/* Prints the help text of COMMAND_HELP or of one of the commands. */
 void options_print_help(Command command, FILE *stream);
 
 /* The folder of results: -o as given, else NAME.results for jobid=NAME, else the deck's file name without folder and

@@ -192,13 +192,31 @@ static void test_threads(void **state)
     assert_true(options_processors() >= 1);
 }
 
+static void test_fold(void **state)
+{
+    (void)state;
+    Options options;
+    assert_int_equal(parse("fold a.k folds.txt -o b.k", &options), 0);
+    assert_int_equal(options.command, COMMAND_FOLD);
+    assert_string_equal(options.deck, "a.k");
+    assert_string_equal(options.folds, "folds.txt");
+    assert_string_equal(options.directory, "b.k");
+    assert_int_equal(parse("fold --help", &options), 0);
+    assert_int_equal(options.command, COMMAND_FOLD_HELP);
+    assert_int_equal(parse("fold a.k", &options), -1);
+    assert_int_equal(parse("fold a.k b.txt c.txt", &options), -1);
+    assert_int_equal(parse("fold a.k b.txt -o", &options), -1);
+    assert_int_equal(parse("fold a.k b.txt --quiet", &options), -1);
+    assert_non_null(strstr(options.error, "no meaning for billow fold"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_run_spelling),   cmocka_unit_test(test_dyna_spelling),
         cmocka_unit_test(test_other_commands), cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_long_words),     cmocka_unit_test(test_directory),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_threads),        cmocka_unit_test(test_fold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
