@@ -14,7 +14,7 @@
 #include "solver/relax_newton.h"
 #include "solver/vector3.h"
 
-enum { LIMIT = 1000 }; /* factorisations */
+enum { LIMIT = 500 }; /* factorisations */
 
 static double wall_clock(void)
 {
@@ -181,11 +181,11 @@ static int run_static(const Model *phase, const double *pressure, FILE *progress
 /* Energies that the stress-work ledger starts from: those that the laws have stored at equilibrium. */
 static int start_ledger(const Model *m, State *state, double *energy)
 {
-    double *stored = memory_alloc((size_t)m->part_count + 1, sizeof *stored);
+    double *stored = memory_alloc((size_t)m->group_count + 1, sizeof *stored);
     if (!stored) return -1;
     relax_stored_energy(m, state->x, stored);
     *energy = 0.0;
-    for (int p = 0; p < m->part_count; p++) *energy += stored[p];
+    for (int g = 0; g < m->group_count; g++) *energy += stored[g];
     state_start_energies(m, stored, state);
     memory_free(stored);
     return 0;

@@ -161,9 +161,9 @@ void relax_system_assemble(RelaxSystem *s, const double *x, bool stiffness, doub
 
 void relax_stored_energy(const Model *m, const double *x, double *energy)
 {
-    for (int p = 0; p < m->part_count; p++) energy[p] = 0.0;
     for (int g = 0; g < m->group_count; g++) {
         const ElementGroup *group = &m->groups[g];
+        energy[g] = 0.0;
         if (group->law == LAW_SURFACE || group->part < 0) continue;
         StaticLaw law = static_law_make(group->law, &group->material);
         for (int e = 0; e < group->element_count; e++) {
@@ -175,7 +175,7 @@ void relax_stored_energy(const Model *m, const double *x, double *energy)
                 memcpy(corner[a], x + 3 * (ptrdiff_t)node, sizeof corner[a]);
             }
             static_element(group, &law, block, lane, corner, m->origin, false, 0.0, &element);
-            energy[group->part] += element.energy;
+            energy[g] += element.energy;
         }
     }
 }

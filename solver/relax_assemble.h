@@ -4,7 +4,7 @@
 
 #include "solver/relax_system.h"
 
-/* Stored energy of the elements at x, by part (part_count), hourglass energy apart; links are not counted. */
+/* Stored energy of the elements at x, by group (group_count), hourglass energy apart; links are not counted. */
 void relax_stored_energy(const Model *model, const double *x, double *energy);
 
 #endif

@@ -140,13 +140,9 @@ static void start_energies(const Model *model, State *state)
 
 void state_start_energies(const Model *model, const double *stored, State *state)
 {
-    for (int p = 0; p < model->part_count; p++) {
-        bool ledger = false;
-        for (int g = 0; g < model->group_count; g++)
-            ledger = ledger || (model->groups[g].part == p && model->groups[g].law != LAW_GREEN &&
-                                model->groups[g].law != LAW_SURFACE);
-        if (ledger) state->part_energy[p] += stored[p];
-    }
+    for (int g = 0; g < model->group_count; g++) /* what the kernels have counted is there already */
+        if (model->groups[g].part >= 0 && state->group_energy[g] == 0.0)
+            state->part_energy[model->groups[g].part] += stored[g];
     *state->energy = (Energies){0};
     start_energies(model, state);
 }

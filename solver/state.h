@@ -74,7 +74,8 @@ int state_create(const Model *model, State *state);
  * memory (the state is then freed). */
 int state_start_at(const Model *model, const double *x, State *state);
 
-/* Gives the parts the energy stored at the start (part_count) whose laws keep a ledger of work, and closes the sums. */
+/* Gives the parts the energy stored at the start, by group (group_count), where a law keeps a ledger of work, and
+ * closes the sums. */
 void state_start_energies(const Model *model, const double *stored, State *state);
 
 /* Sets the pointers into state->buffer (of state->size bytes) for this model. */
