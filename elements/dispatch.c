@@ -21,6 +21,7 @@ const KernelTable *kernels_select(const char *wish)
 ElementKernel *kernels_for(const KernelTable *table, const ElementGroup *group)
 {
     if (group->law == LAW_SURFACE) return table->surface;
+    if (group->law == LAW_CURVE || group->law == LAW_RUBBER) table = table->further;
     switch (group->kind) {
     case ELEMENT_TRIANGLE:
         return table->triangle;

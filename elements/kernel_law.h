@@ -88,6 +88,12 @@ ALWAYS_INLINE Pack major_bound(PackTensor t)
     return pack_larger(pack_larger(t.a11, t.a22) + pack_absolute(t.a12), pack_of(0.0));
 }
 
+/* The same for the size of both principal values. */
+ALWAYS_INLINE Pack size_bound(PackTensor t)
+{
+    return pack_larger(pack_absolute(t.a11), pack_absolute(t.a22)) + pack_absolute(t.a12);
+}
+
 /* Squared radius of Mohr's circle, not quite 0. */
 ALWAYS_INLINE Pack radius_square(PackTensor t)
 {

@@ -20,7 +20,8 @@ typedef struct LawInput {
     FabricLaw law;
     Compliance compliance;
     double inverse_step;
-    double count_work; /* 1, or 0 when histories are only filled */
+    double count_work;           /* 1, or 0 when histories are only filled */
+    bool has_history, one_point; /* of the group; for the further laws */
 } LawInput;
 
 /* What a kernel does besides the law; a constant of each kernel, so that its loops have no branch. */
@@ -37,6 +38,7 @@ typedef struct PointPlace {
     const double *point, *tail; /* elements/kernels.h */
     double *metric;             /* C of the last step */
     float *stress;              /* S of the last step */
+    double *memory;             /* of the further laws */
 } PointPlace;
 
 /* A pack of points: what comes in and what the stages leave. */
@@ -86,7 +88,9 @@ ALWAYS_INLINE PackTensor stress_biot(int mode, const LawInput *in, const PointPl
     /* a slack element keeps its reference frequency, or what its liner has: it may be taut in the next cycle */
     if (mode & MODE_TENSION_FIELD)
         stretched = pack_where_positive(major, stretched, pack_larger(reference, in->law.slack_share * stretched));
-    p->rate = stretched + major_bound(s) * lane_values(place->tail, GEOMETRY_STRESS_RATE);
+    /* compression stiffens against rotation in the plane; only the cut-off takes it away */
+    Pack bound = mode & MODE_TENSION_FIELD ? major_bound(s) : size_bound(s);
+    p->rate = stretched + bound * lane_values(place->tail, GEOMETRY_STRESS_RATE);
     return s;
 }
 

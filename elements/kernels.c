@@ -8,7 +8,7 @@
 #include "elements/kernel_stages.h"
 #include "elements/kernel_transpose.h"
 
-extern const KernelTable BILLOW_KERNEL_TABLE;
+extern const KernelTable BILLOW_KERNEL_TABLE, BILLOW_FURTHER_TABLE;
 
 /* Eight partial sums, then a tree: the same order in every instruction set. */
 enum { SUM_WIDTH = 8, SUM_PACKS = SUM_WIDTH / PACK_WIDTH };
@@ -64,10 +64,36 @@ static LawInput make_law_input(const KernelInput *input)
     const ElementGroup *group = input->group;
     LawInput in = {
         .law = group->material, .inverse_step = input->inverse_step, .count_work = input->restart_ledger ? 0.0 : 1.0};
+    in.has_history = group->has_history;
+    in.one_point = group->kind == ELEMENT_QUAD_ONE;
     if (group->law == LAW_GREEN && in.law.no_compression) in.compliance = make_compliance(&in.law.fabric);
     return in;
 }
 
+#ifdef BILLOW_FURTHER_LAWS
+/* The same elements with the laws of kernel_further.h. */
+#include "elements/kernel_further.h"
+#define natural_stress further_stress
+
+static int kernel_mode(const ElementGroup *group)
+{
+    if (group->law == LAW_CURVE) return MODE_CURVE;
+    return group->material.rubber->terms > 0 ? MODE_OGDEN : MODE_MOONEY;
+}
+
+#define FOR_MODE(mode, WORK)                                                                                           \
+    switch (mode) {                                                                                                    \
+    case MODE_CURVE:                                                                                                   \
+        WORK(MODE_CURVE);                                                                                              \
+        break;                                                                                                         \
+    case MODE_MOONEY:                                                                                                  \
+        WORK(MODE_MOONEY);                                                                                             \
+        break;                                                                                                         \
+    default:                                                                                                           \
+        WORK(MODE_OGDEN);                                                                                              \
+        break;                                                                                                         \
+    }
+#else
 static int kernel_mode(const ElementGroup *group)
 {
     int mode = group->history_size > 0 ? MODE_HISTORY : 0;
@@ -121,6 +147,7 @@ static int kernel_mode(const ElementGroup *group)
         WORK(15);                                                                                                      \
         break;                                                                                                         \
     }
+#endif
 
 /* Nodes, rows, constants and histories of one pack of elements. */
 typedef struct ElementPlace {
@@ -128,6 +155,7 @@ typedef struct ElementPlace {
     const double *geometry, *tail; /* points, and what comes after them */
     double *metric;                /* history */
     float *stress;
+    double *memory;
 } ElementPlace;
 
 ALWAYS_INLINE ElementPlace find_place(const KernelInput *input, int block, int pack, int corners, int points)
@@ -141,7 +169,8 @@ ALWAYS_INLINE ElementPlace find_place(const KernelInput *input, int block, int p
                           .geometry = geometry,
                           .tail = geometry + (ptrdiff_t)points * GEOMETRY_POINT_SIZE * LANES,
                           .metric = history + lane,
-                          .stress = (float *)(void *)(history + (ptrdiff_t)points * HISTORY_POINT_SIZE * LANES) + lane};
+                          .stress = (float *)(void *)(history + (ptrdiff_t)points * HISTORY_POINT_SIZE * LANES) + lane,
+                          .memory = history + (ptrdiff_t)history_size(points) * LANES + lane};
     return place;
 }
 
@@ -149,7 +178,8 @@ ALWAYS_INLINE PointPlace point_place(const ElementPlace *place, int point)
 {
     PointPlace at = {place->geometry + (ptrdiff_t)point * GEOMETRY_POINT_SIZE * LANES, place->tail,
                      place->metric + (ptrdiff_t)point * HISTORY_POINT_SIZE * LANES,
-                     place->stress + (ptrdiff_t)point * HISTORY_POINT_SIZE * LANES};
+                     place->stress + (ptrdiff_t)point * HISTORY_POINT_SIZE * LANES,
+                     place->memory + (ptrdiff_t)point * MEMORY_POINT_SIZE * LANES};
     return at;
 }
 
@@ -535,5 +565,10 @@ static void kernel_surface(const KernelInput *input, ChunkSums *sums)
     finish_sums(&packs, sums);
 }
 
-const KernelTable BILLOW_KERNEL_TABLE = {BILLOW_KERNEL_LEVEL, kernel_surface, kernel_triangle, kernel_quad_full,
-                                         kernel_quad_one};
+#ifdef BILLOW_FURTHER_LAWS
+#define FURTHER NULL
+#else
+#define FURTHER &BILLOW_FURTHER_TABLE
+#endif
+const KernelTable BILLOW_KERNEL_TABLE = {BILLOW_KERNEL_LEVEL, kernel_surface,  kernel_triangle,
+                                         kernel_quad_full,    kernel_quad_one, FURTHER};

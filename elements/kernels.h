@@ -1,7 +1,8 @@
 /* The element pass: stress, corner forces, area vectors and partial sums of whole blocks.
  *
- * The kernels are compiled once per instruction set (elements/kernels.c); kernels_select picks one table at start. All
- * tables give the same bits: only + - * / and square roots, no contraction, sums in a fixed order. */
+ * The kernels are compiled once per instruction set and once more for the further laws (elements/kernels.c);
+ * kernels_select picks one table at start. All tables give the same bits: only + - * / and square roots, no
+ * contraction, sums in a fixed order. */
 #ifndef BILLOW_KERNELS_H
 #define BILLOW_KERNELS_H
 
@@ -42,6 +43,9 @@ static inline int history_size(int points)
     return points * HISTORY_POINT_SIZE + (points * HISTORY_POINT_SIZE + 1) / 2;
 }
 
+/* After that of all points: what a law of elements/kernel_further.h remembers at each point (kernel_curve_law.h). */
+enum { MEMORY_POINT_SIZE = 10 };
+
 /* Corner sums: one row for each node of a segment (Model.row_start) [doubles]: the stress force, one unused, the area
  * vector that takes the pressure, one unused. A row fills a cache line. */
 enum { ROW_SIZE = 8, ROW_AREA = 4 };
@@ -74,9 +78,10 @@ typedef void ElementKernel(const KernelInput *input, ChunkSums *sums);
 typedef struct KernelTable {
     int level;               /* 2, 3 or 4: x86-64-v2 and so on */
     ElementKernel *surface;  /* LAW_SURFACE, any kind */
-    ElementKernel *triangle; /* any law */
+    ElementKernel *triangle; /* any law but those of further */
     ElementKernel *quad_full;
     ElementKernel *quad_one;
+    const struct KernelTable *further; /* the same for LAW_CURVE and LAW_RUBBER; NULL in that table */
 } KernelTable;
 
 /* The table for this processor; the environment variable BILLOW_KERNELS=v2|v3|v4 asks for a lesser one. NULL if the

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "elements/kernels.h"
+
 static PlaneModuli scale_moduli(PlaneModuli d, double share)
 {
     PlaneModuli s = {share * d.d11, share * d.d12, share * d.d22, share * d.d33};
@@ -47,4 +49,27 @@ void law_set(FabricLaw *law, PlaneModuli fabric, PlaneModuli liner, double liner
     law->liner = has_liner ? scale_moduli(liner, liner_share) : (PlaneModuli){0};
     law->whole = has_liner ? add_moduli(law->fabric, law->liner) : law->fabric;
     law->slack_share = has_liner ? stiffness_share(&law->liner, &law->whole) : 0.0;
+}
+
+bool law_stores_energy(LawKind kind, const FabricLaw *law)
+{
+    return kind == LAW_GREEN || kind == LAW_RUBBER || (kind == LAW_CURVE && !law->has_memory);
+}
+
+bool law_has_history(LawKind kind, const FabricLaw *law)
+{
+    if (kind == LAW_SURFACE) return false;
+    return !law_stores_energy(kind, law) || law->damping > 0.0;
+}
+
+int law_memory_size(LawKind kind, const FabricLaw *law)
+{
+    return kind == LAW_CURVE && law->has_memory ? MEMORY_POINT_SIZE : 0;
+}
+
+void law_rubber_moduli(const RubberLaw *rubber, FabricLaw *law)
+{
+    double modulus = rubber->terms > 0 ? 0.0 : 2.0 * (rubber->a + rubber->b);
+    for (int i = 0; i < rubber->terms; i++) modulus += 0.5 * rubber->mu[i] * rubber->alpha[i];
+    law_set(law, law_isotropic(3.0 * modulus, 0.5), (PlaneModuli){0}, 0.0, false);
 }

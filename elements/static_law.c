@@ -6,6 +6,7 @@
 
 #define BILLOW_KERNEL_LEVEL 2 /* the first lane counts */
 #include "elements/kernel_law.h"
+#include "elements/law_point.h"
 
 /* A symmetric plane tensor. */
 typedef struct Tensor {
@@ -250,6 +251,28 @@ static void logarithmic_point(const StaticLaw *law, PackTensor c, bool tangent, 
     symmetrise(point);
 }
 
+/* ---- curves, rubber ---- */
+
+/* The tangent by central differences of the stress: its error is far below what Newton's method notices. */
+static void further_point(const StaticLaw *law, const double c[3], bool tangent, StaticPoint *point)
+{
+    const double h = 1e-6;
+    LawPoint at, up, down;
+    law_point(law->kind, &law->fabric, c, NULL, 0, 0.0, 0.0, &at);
+    for (int i = 0; i < 3; i++) point->stress[i] = at.stress[i];
+    point->energy = at.energy;
+    if (!tangent) return;
+    for (int i = 0; i < 3; i++) { /* C11 = 1 + 2 E11, C12 = 2 E12 */
+        double step = i < 2 ? 2.0 * h : h, right[3] = {c[0], c[1], c[2]}, left[3] = {c[0], c[1], c[2]};
+        right[i] += step;
+        left[i] -= step;
+        law_point(law->kind, &law->fabric, right, NULL, 0, 0.0, 0.0, &up);
+        law_point(law->kind, &law->fabric, left, NULL, 0, 0.0, 0.0, &down);
+        for (int k = 0; k < 3; k++) point->tangent[k][i] = (up.stress[k] - down.stress[k]) / (2.0 * h);
+    }
+    symmetrise(point);
+}
+
 /* ---- all ---- */
 
 StaticLaw static_law_make(LawKind kind, const FabricLaw *fabric)
@@ -266,13 +289,15 @@ StaticLaw static_law_make(LawKind kind, const FabricLaw *fabric)
 
 const char *static_law_refusal(LawKind kind, const FabricLaw *fabric)
 {
-    (void)fabric;
     switch (kind) {
     case LAW_SURFACE:
     case LAW_BIOT:
     case LAW_LOGARITHMIC:
     case LAW_GREEN:
+    case LAW_RUBBER:
         return NULL;
+    case LAW_CURVE:
+        return fabric->has_memory ? "its unloading curves or hysteresis have no static equilibrium of their own" : NULL;
     }
     return "its law has no tangent for the static equilibrium";
 }
@@ -284,6 +309,8 @@ void static_law_point(const StaticLaw *law, const double c[3], bool tangent, Sta
         green_point(law, pack, tangent, point);
     else if (law->kind == LAW_BIOT)
         biot_point(law, pack, tangent, point);
+    else if (law->kind == LAW_CURVE || law->kind == LAW_RUBBER)
+        further_point(law, c, tangent, point);
     else
         logarithmic_point(law, pack, tangent, point);
 }

@@ -48,20 +48,20 @@ static const FieldSpec card5_fields[] = {
     CARD_INT("ISREFG", fabric.isrefg, LISTED, NONE),
 };
 static const FieldSpec card6_fields[] = {
-    CARD_INT("LCA", fabric.lca, REFUSED, ID_FUNCTION),   CARD_INT("LCB", fabric.lcb, REFUSED, ID_FUNCTION),
-    CARD_INT("LCAB", fabric.lcab, REFUSED, ID_FUNCTION), CARD_INT("LCUA", fabric.lcua, REFUSED, ID_FUNCTION),
-    CARD_INT("LCUB", fabric.lcub, REFUSED, ID_FUNCTION), CARD_INT("LCUAB", fabric.lcuab, REFUSED, ID_FUNCTION),
-    CARD_REAL("RL", fabric.rl, REFUSED, NONE),
+    CARD_INT("LCA", fabric.lca, USED, ID_FUNCTION),   CARD_INT("LCB", fabric.lcb, USED, ID_FUNCTION),
+    CARD_INT("LCAB", fabric.lcab, USED, ID_FUNCTION), CARD_INT("LCUA", fabric.lcua, USED, ID_FUNCTION),
+    CARD_INT("LCUB", fabric.lcub, USED, ID_FUNCTION), CARD_INT("LCUAB", fabric.lcuab, USED, ID_FUNCTION),
+    CARD_REAL("RL", fabric.rl, USED, NONE),
 };
 static const FieldSpec card7_fields[] = {
     CARD_INT("LCAA", fabric.lcaa, REFUSED, ID_FUNCTION),
     CARD_INT("LCBB", fabric.lcbb, REFUSED, ID_FUNCTION),
-    CARD_REAL("H", fabric.h, REFUSED, NONE),
-    CARD_INT("DT", fabric.dt, REFUSED, NONE),
+    CARD_REAL("H", fabric.h, USED, NONE),
+    CARD_REAL("DT", fabric.dt, LISTED, TIME),
     CARD_GAP,
-    CARD_REAL("ECOAT", fabric.ecoat, REFUSED, PRESSURE),
-    CARD_REAL("SCOAT", fabric.scoat, REFUSED, PRESSURE),
-    CARD_REAL("TCOAT", fabric.tcoat, REFUSED, LENGTH),
+    CARD_REAL("ECOAT", fabric.ecoat, LISTED, PRESSURE),
+    CARD_REAL("SCOAT", fabric.scoat, LISTED, PRESSURE),
+    CARD_REAL("TCOAT", fabric.tcoat, LISTED, LENGTH),
 };
 #undef AT
 
@@ -73,8 +73,27 @@ static const CardSpec cards[] = {
     {"card 4", "may be left out if AOPT = 0", CARD_FIELDS(card4_fields)},
     {"card 5", "may be left out if AOPT = 0", CARD_FIELDS(card5_fields)},
     {"card 6", "if FORM is 4, 14, -14 or 24", CARD_FIELDS(card6_fields)},
-    {"card 7", "if FORM = -14", CARD_FIELDS(card7_fields)},
+    {"card 7", "if FORM = -14; may follow with FORM = 24", CARD_FIELDS(card7_fields)},
 };
+
+static bool is_known(int form)
+{
+    return (form >= 0 && form <= 4) || (form >= 12 && form <= 14) || form == -14 || form == 24;
+}
+
+/* Cards 4 to 7; 0, or -1 after an error. */
+static int read_optional(KeywordRead *read, MaterialDefinition *card)
+{
+    int status = 0, form = card->fabric.form;
+    const bool curves = form == 4 || form == 14 || form == -14 || form == 24;
+    for (int i = 3; i < 5; i++)
+        if ((curves || card_left(read->cards)) && keyword_card(read, i, card, true, NULL)) status = -1;
+    if (!curves) return status;
+    if (keyword_card(read, 5, card, status == 0, NULL)) status = -1;
+    if ((form == -14 || (form == 24 && keyword_more(read))) && keyword_card(read, 6, card, status == 0, NULL))
+        status = -1;
+    return status;
+}
 
 static void read_fabric(KeywordRead *read)
 {
@@ -86,13 +105,11 @@ static void read_fabric(KeywordRead *read)
     for (int i = 1; i < 3; i++)
         if (keyword_card(read, i, &card, status == 0, &third)) status = -1;
     if (status) return;
-    const bool known = fabric->form >= 0 && fabric->form <= 2;
-    for (int i = 3; i < 5; i++)
-        if (card_left(read->cards) && keyword_card(read, i, &card, true, NULL)) status = -1;
-    if (known) {
+    status = read_optional(read, &card);
+    if (is_known(fabric->form)) {
         keyword_finish(read);
     } else { /* the material is kept, so that its parts do not complain that it is missing */
-        keyword_error(read, third, "FORM = %d is not read by billow " BILLOW_VERSION "; use 0, 1 or 2", fabric->form);
+        keyword_error(read, third, "FORM = %d is not known; use 0 to 4, 12 to 14, -14 or 24", fabric->form);
     }
     if (status || !keyword_check_id(read, card.id, "MID", card.source)) return;
     if (fabric->aopt < 0.0 && !keyword_real_id(read, &fabric->aopt, SCALE_ID_DEFINE, "AOPT", third)) return;
@@ -116,11 +133,21 @@ static const KeywordSpec specs[] = {
      .card_count = 7,
      .read = read_fabric,
      .remark =
-         "FORM 0, 1 and 2; others are refused by name, so cards 6 and 7 are never met. FLC, FAC, ELA, FVOPT, X0, X1 "
-         "and A0REF are for leakage through the fabric, which OPT of the airbag switches on; FLC < 0, FAC < 0 and ELA "
-         "< 0 "
-         "name curves; where X0 is neither 0 nor 1 FLC and FAC are X2 and X3. LNRC, RGBRTH, TSRFAC and ISREFG are for "
-         "reference geometries: without those they have no effect."},
+         "FORM 3, 12 and 13 are FORM 2: Green strain in fibre directions that need not stay orthogonal. Curves: FORM "
+         "4, 14 "
+         "and -14 second Piola-Kirchhoff stress over Green strain, FORM 24 engineering stress over engineering strain, "
+         "shear over twice the shear strain; stress must grow with strain, and beyond its ends a curve goes on with "
+         "its "
+         "last slope. Where a curve is left out EA, EB or GAB stands for it. PRBA and PRAB have no effect beside "
+         "curves, "
+         "which is warned of. With CSE = 1 fibres of curves carry no compression. H is the share of energy that a "
+         "cycle "
+         "dissipates. ECOAT, SCOAT and TCOAT give bending, which a membrane has not; DT averages strain rates, which "
+         "no "
+         "curve depends on. FLC, FAC, ELA, FVOPT, X0, X1 and A0REF are for leakage through the fabric, which OPT of "
+         "the "
+         "airbag switches on; FLC < 0, FAC < 0 and ELA < 0 name curves; where X0 is neither 0 nor 1 FLC and FAC are X2 "
+         "and X3. LNRC, RGBRTH, TSRFAC and ISREFG are for reference geometries: without those they have no effect."},
 };
 
 const KeywordFamily keyword_family_fabric = {"Fabric", specs, (int)(sizeof specs / sizeof *specs)};

@@ -226,7 +226,7 @@ static int write_displacements(VtkHdf *grid, const Model *model, const double *x
     return 0;
 }
 
-static int write_cell_data(VtkHdf *grid, const Model *model, const double *x)
+static int write_cell_data(VtkHdf *grid, const Model *model, const double *x, const double *history)
 {
     float *stress = (float *)(void *)grid->rows, *strain = stress + 6 * (ptrdiff_t)grid->piece,
           *thickness = strain + 6 * (ptrdiff_t)grid->piece;
@@ -234,7 +234,7 @@ static int write_cell_data(VtkHdf *grid, const Model *model, const double *x)
         int count = piece_length(grid, first, model->element_count);
         for (int e = 0; e < count; e++) {
             ElementResult result;
-            membrane_result(model, x, first + e, &result);
+            membrane_result(model, x, history, first + e, &result);
             for (int c = 0; c < 6; c++) {
                 stress[6 * (ptrdiff_t)e + c] = (float)result.stress[c];
                 strain[6 * (ptrdiff_t)e + c] = (float)result.strain[c];
@@ -249,11 +249,11 @@ static int write_cell_data(VtkHdf *grid, const Model *model, const double *x)
     return 0;
 }
 
-static int append_rows(VtkHdf *grid, const Model *model, const double *x, const double *v)
+static int append_rows(VtkHdf *grid, const Model *model, const double *x, const double *v, const double *history)
 {
     return extend_arrays(grid) || write_vectors(grid, model, DATA_POINTS, x) ||
                    write_vectors(grid, model, DATA_VELOCITY, v) || write_displacements(grid, model, x) ||
-                   write_cell_data(grid, model, x)
+                   write_cell_data(grid, model, x, history)
                ? -1
                : 0;
 }
@@ -275,14 +275,15 @@ static int append_step(VtkHdf *grid, double time)
                : 0;
 }
 
-int vtkhdf_write_state(VtkHdf *grid, const Model *model, double time, const double *x, const double *v)
+int vtkhdf_write_state(VtkHdf *grid, const Model *model, double time, const double *x, const double *v,
+                       const double *history)
 {
     if (grid->count > 0 && !(time > grid->times[grid->count - 1])) return 0;
     if (memory_reserve((void **)&grid->times, &grid->capacity, grid->count + 1, sizeof *grid->times))
         return vtkhdf_report_memory(grid->diagnostics, grid->path);
     errno = 0;
     if (vtkhdf_reserve_space(grid, state_bytes(grid))) return vtkhdf_report_failure(grid, "write");
-    if (append_rows(grid, model, x, v) || append_step(grid, time)) {
+    if (append_rows(grid, model, x, v, history) || append_step(grid, time)) {
         grid->broken = true;
         return vtkhdf_report_failure(grid, "write");
     }

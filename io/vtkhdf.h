@@ -26,7 +26,8 @@ double vtkhdf_state_time(const VtkHdf *grid, int index);
 /* Appends a state and flushes the file: x and v are positions and velocities at this time in the model's node order
  * (node_count x 3). A time not later than the last state's changes nothing. 0, or -1 with an environment error; the
  * file then still holds its earlier states. */
-int vtkhdf_write_state(VtkHdf *grid, const Model *model, double time, const double *x, const double *v);
+int vtkhdf_write_state(VtkHdf *grid, const Model *model, double time, const double *x, const double *v,
+                       const double *history);
 
 /* Closes and frees. 0, or -1 with an environment error. NULL is allowed. */
 int vtkhdf_close(VtkHdf *grid);

@@ -48,9 +48,9 @@ static void place_groups(Model *m)
         ElementGroup *group = &m->groups[g];
         group->block_count = (group->element_count + LANES - 1) / LANES;
         group->geometry_size = geometry_size(group->kind, group->law);
-        group->has_history = group->law == LAW_BIOT || group->law == LAW_LOGARITHMIC ||
-                             (group->law == LAW_GREEN && group->material.damping > 0.0);
+        group->has_history = law_has_history(group->law, &group->material);
         group->history_size = group->has_history ? history_size(group->point_count) : 0;
+        group->history_size += group->point_count * law_memory_size(group->law, &group->material);
         group->first_element = m->padded_count;
         group->first_chunk = m->chunk_count;
         group->history_offset = m->history_size;

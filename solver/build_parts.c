@@ -49,16 +49,59 @@ static int fabric_axis(Builder *b, const MaterialDefinition *m, PartRecord *part
     return 0;
 }
 
+/* What all forms have in common. */
+static int fabric_finish(Builder *b, const MaterialDefinition *m, PartRecord *part)
+{
+    part->fabric.no_compression = m->fabric.cse == 1.0;
+    part->fabric.damping = m->fabric.damp > 0.0 ? m->fabric.damp : 0.0;
+    return fabric_axis(b, m, part);
+}
+
+/* Is the fabric given by curves? FORM 4, 14 and -14 without any curve are FORM 3 and 13. */
+static bool fabric_has_curves(const FabricCard *f)
+{
+    bool can = f->form == 4 || f->form == 14 || f->form == -14;
+    return f->form == 24 || (can && (f->lca || f->lcb || f->lcab || f->lcua || f->lcub || f->lcuab || f->h != 0.0));
+}
+
+/* Moduli that cannot be; every one is named. */
+static bool fabric_moduli_fail(Builder *b, const MaterialDefinition *m, bool first_use, bool by_curves)
+{
+    const FabricCard *f = &m->fabric;
+    const char *names[] = {"EB", "GAB", "EL"};
+    const double values[] = {f->eb, f->gab, f->el};
+    bool fail = f->ea < 0.0 || (f->ea == 0.0 && !by_curves), share = !(f->lratio >= 0.0 && f->lratio <= 1.0);
+    if (fail && first_use)
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC", "EA = %g must be positive", f->ea);
+    for (int i = 0; i < 3; i++) {
+        if (!(values[i] < 0.0)) continue;
+        if (first_use)
+            diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC", "%s = %g must not be negative",
+                            names[i], values[i]);
+        fail = true;
+    }
+    if (share && first_use)
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC",
+                        "LRATIO = %g must lie between 0 and 1", f->lratio);
+    if (f->lratio > 0.0 && f->el > 0.0 && !(f->prl > -1.0 && f->prl < 1.0)) {
+        if (first_use)
+            diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC",
+                            "PRL = %g must lie between -1 and 1", f->prl);
+        fail = true;
+    }
+    return fail || share;
+}
+
 /* MAT_FABRIC: EB, GAB default to the isotropic law of EA, PRBA as in LS-DYNA. */
 static int fabric_law(Builder *b, const MaterialDefinition *m, bool first_use, PartRecord *part)
 {
     const FabricCard *f = &m->fabric;
     Diagnostics *g = b->diagnostics;
-    if (!(f->ea > 0.0)) {
-        diagnostics_add(g, SEVERITY_ERROR, m->source, "*MAT_FABRIC", "EA = %g must be positive", f->ea);
-        return -1;
-    }
-    if (f->form != 0 && f->form != 1 && f->form != 2) return 0; /* reported by the reader */
+    bool curves = fabric_has_curves(f);
+    bool fail = fabric_moduli_fail(b, m, first_use, curves);
+    if (curves && fabric_curve_law(b, m, first_use, part)) fail = true; /* all messages in one list */
+    if (fail) return -1;
+    if (curves) return fabric_finish(b, m, part);
     double eb = f->eb > 0.0 ? f->eb : f->ea, prab = f->prab != 0.0 ? f->prab : f->prba * f->ea / eb;
     double gab = f->gab > 0.0 ? f->gab : 0.5 * f->ea / (1.0 + f->prba);
     double mismatch = fabs(f->prba * f->ea - prab * eb);
@@ -78,11 +121,9 @@ static int fabric_law(Builder *b, const MaterialDefinition *m, bool first_use, P
     }
     if (has_liner) liner = law_isotropic(f->el, f->prl);
     law_set(&part->fabric, fabric, liner, f->lratio, has_liner);
-    part->fabric.no_compression = f->cse == 1.0;
-    part->fabric.damping = f->damp > 0.0 ? f->damp : 0.0;
-    part->law = f->form == 2 ? LAW_GREEN : LAW_BIOT;
+    part->law = f->form == 0 || f->form == 1 ? LAW_BIOT : LAW_GREEN;
     part->fabric.free_fold = part->law == LAW_BIOT;
-    return fabric_axis(b, m, part);
+    return fabric_finish(b, m, part);
 }
 
 /* The compression cut-off of FORM 0 and 1 with a Poisson's ratio has no stored energy (docs/theory.md, Energy). */

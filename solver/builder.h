@@ -70,6 +70,9 @@ SectionKind part_section(const Definitions *definitions, int id, int *place);
 int part_material_check(Builder *builder, const PartDefinition *definition, const PartRecord *record,
                         const MaterialDefinition *material);
 
+/* The law of a fabric by curves (FORM 4, 14, -14, 24). first_use: messages come once. 0, or -1 after an error. */
+int fabric_curve_law(Builder *builder, const MaterialDefinition *material, bool first_use, PartRecord *part);
+
 /* Area of a beam's cross-section, 0 if it is not known. */
 double beam_area(const SectionBeamDefinition *section);
 

@@ -148,8 +148,8 @@ typedef struct FabricCard {
     int isrefg;
     int lca, lcb, lcab, lcua, lcub, lcuab; /* forms 4, 14, -14, 24 */
     double rl;
-    int lcaa, lcbb, dt; /* form -14 */
-    double h, ecoat, scoat, tcoat;
+    int lcaa, lcbb; /* form -14 */
+    double h, dt, ecoat, scoat, tcoat;
 } FabricCard;
 
 /* *MAT_RIGID. con1/con2 as written; lco_or_a1 may name a local system when cmo < 0. */

@@ -73,7 +73,7 @@ static int initial_volumes(const Model *model, State *state, double *volume, dou
                              .history = state->history,
                              .restart_ledger = true};
         kernels_for(kernels, group)(&input, &sums);
-        if (group->law == LAW_GREEN) {
+        if (law_stores_energy(group->law, &group->material)) {
             state->group_energy[g] = sums.energy;
             state->part_energy[group->part] += sums.energy;
         }

@@ -115,7 +115,8 @@ static int allocate(Workspace *w)
     w->part_kinetic = memory_alloc((size_t)m->part_count + 1, sizeof(double));
     w->part_momentum = memory_alloc(3 * (size_t)m->part_count + 3, sizeof(double));
     w->lane_rate = memory_alloc((size_t)BILLOW_CHUNK * BILLOW_LANES, sizeof(double));
-    w->kept_history = memory_alloc((size_t)BILLOW_CHUNK * BILLOW_LANES * (size_t)history_size(4), sizeof(double));
+    size_t history = (size_t)history_size(4) + 4 * MEMORY_POINT_SIZE; /* of a quad at most */
+    w->kept_history = memory_alloc((size_t)BILLOW_CHUNK * BILLOW_LANES * history, sizeof(double));
     w->special_kind = memory_alloc(special + 1, 1);
     w->drag = memory_alloc(3 * special + 1, sizeof(double));
     w->newton = memory_alloc(3 * special + 1, sizeof(double));

@@ -38,7 +38,7 @@ static double sum_chunks(Workspace *w)
             w->set_area[group->pressure_set] += sum.area;
         }
         if (group->law == LAW_SURFACE) continue;
-        if (group->law != LAW_GREEN) {
+        if (!law_stores_energy(group->law, &group->material)) {
             state->part_energy[group->part] += sum.energy;
         } else {
             double change = sum.energy - state->group_energy[g];

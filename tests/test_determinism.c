@@ -17,6 +17,17 @@ static bool select_rim(const void *radius, const double x[3])
     return scene_select_radius(radius, x);
 }
 
+/* Curves with unloading, reloading and liner. */
+static void write_curves(SceneText *deck, int form)
+{
+    scene_print(deck, "*MAT_FABRIC\n1,800,3e8,2e8\n1e7,,,1,5e7,.3,.1,.1\n0,,,,,%d\n0\n0\n11,12,13,14,,15,.4\n", form);
+    scene_write_curve(deck, 11, 4, (const double[]){0, 0, 0.02, 1e6, 0.06, 9e6, 0.2, 6e7});
+    scene_write_curve(deck, 12, 3, (const double[]){-0.2, -3e6, 0, 0, 0.2, 4e7});
+    scene_write_curve(deck, 13, 3, (const double[]){0, 0, 0.1, 2e5, 0.6, 4e6});
+    scene_write_curve(deck, 14, 3, (const double[]){0, 0, 0.1, 4e6, 0.2, 6e7});
+    scene_write_curve(deck, 15, 3, (const double[]){0, 0, 0.3, 3e5, 0.6, 4e6});
+}
+
 /* Two discs with gas, vent and damping; form and pattern vary. */
 static void make_bag(Scene *scene, ScenePattern pattern, int form)
 {
@@ -41,7 +52,10 @@ static void make_bag(Scene *scene, ScenePattern pattern, int form)
                           .el = 5e7,
                           .prl = 0.3,
                           .lratio = 0.1};
-    scene_write_fabric(deck, 1, &fabric);
+    if (form == 14 || form == 24)
+        write_curves(deck, form);
+    else
+        scene_write_fabric(deck, 1, &fabric);
     scene_write_part_set(deck, 1, 2, (const int[]){1, 2});
     scene_write_curve(deck, 1, 3, (const double[]){0, 0.5, 0.02, 1.5, 1, 1.5});
     scene_write_damping(deck, 0, 20);
@@ -72,6 +86,16 @@ static void make_quads(Scene *scene)
 static void make_green_quads(Scene *scene)
 {
     make_bag(scene, SCENE_QUADS, 2);
+}
+
+static void make_curve_triangles(Scene *scene)
+{
+    make_bag(scene, SCENE_DIAGONAL, 24);
+}
+
+static void make_curve_quads(Scene *scene)
+{
+    make_bag(scene, SCENE_QUADS, 14);
 }
 
 /* An elastic tube between a fixed and a falling rigid disc. */
@@ -144,6 +168,9 @@ static const struct DeterminismCase {
              {"quads, Green", make_green_quads, false},
              {"one-point quads", make_quads, true},
              {"one-point quads, Green", make_green_quads, true},
+             {"triangles, curves", make_curve_triangles, false},
+             {"quads, curves", make_curve_quads, false},
+             {"one-point quads, curves", make_curve_quads, true},
              {"rigid bodies", make_bounce, false},
              {"walls and cables", make_walls, false},
              {"driver bag", NULL, false}};

@@ -131,9 +131,9 @@ static void test_refused_features(void **state)
         assert_one_error(text, cases[i].line, "*AIRBAG_WANG_NEFSKE", cases[i].part);
     }
     assert_one_error(
-        "*MAT_FABRIC\n         1    1.0E-4    2.0E+6\n\n                                                          14\n"
+        "*MAT_FABRIC\n         1    1.0E-4    2.0E+6\n\n                                                          15\n"
         "\n\n         1         2\n",
-        4, "*MAT_FABRIC", "FORM = 14");
+        4, "*MAT_FABRIC", "FORM = 15");
     assert_one_error("*SECTION_SHELL\n         1       101\n       0.1\n\n\n", 2, "*SECTION_SHELL", "ELFORM = 101");
     assert_one_error("*CONTROL_DYNAMIC_RELAXATION\n       250     0.001     0.995                           0      0.04"
                      "         2\n",
