@@ -24,7 +24,7 @@ static PackTensor own_strain(LawKind kind, PackTensor c)
     return (PackTensor){u.a11 - 1.0, u.a22 - 1.0, u.a12};
 }
 
-_Static_assert(CURVE_MEMORY_SIZE == MEMORY_POINT_SIZE, "what kernels.h says of the memory");
+_Static_assert((int)CURVE_MEMORY_SIZE == (int)MEMORY_POINT_SIZE, "what kernels.h says of the memory");
 
 static PackTensor stress_of(LawKind kind, const FabricLaw *law, const LawInput *in, const PointPlace *place,
                             PointPack *p)
