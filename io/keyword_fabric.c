@@ -97,7 +97,7 @@ static int read_optional(KeywordRead *read, MaterialDefinition *card)
 
 static void read_fabric(KeywordRead *read)
 {
-    MaterialDefinition card = {.kind = MATERIAL_FABRIC};
+    MaterialDefinition card = {.kind = MATERIAL_FABRIC, .keyword = "*MAT_FABRIC"};
     FabricCard *fabric = &card.fabric;
     keyword_title(read, FABRIC_TITLE, card.title);
     Source third = BILLOW_NO_SOURCE;

@@ -73,6 +73,10 @@ static const char *material_name(int kind)
         return "spring";
     case MATERIAL_CABLE:
         return "cable";
+    case MATERIAL_ORTHOTROPIC:
+        return "orthotropic";
+    case MATERIAL_RUBBER:
+        return "rubber";
     default:
         return "?";
     }

@@ -110,8 +110,9 @@ static void take_direction(CurveBuild *c, int direction, const DirectionCard *ca
         double *storage = builder_alloc(c->builder, law_curve_size(1), sizeof *storage);
         if (!(card->modulus > 0.0))
             report(c, SEVERITY_ERROR, c->material->source, c->keyword, card->load_name, 0,
-                   card->modulus_name[0] == 'G' ? "without this curve GAB must be positive"
-                                                : "without this curve the modulus EA or EB must be positive");
+                   c->material->fabric.is_map     ? "this curve must be given"
+                   : card->modulus_name[0] == 'G' ? "without this curve GAB must be positive"
+                                                  : "without this curve the modulus EA or EB must be positive");
         if (!storage || !(card->modulus > 0.0)) {
             c->status = -1;
             return;
@@ -152,29 +153,38 @@ static int finish_law(CurveBuild *c, double hysteresis, PlaneModuli liner, doubl
     return 0;
 }
 
+/* From a curve over E12 to one over 2 E12. */
+static void widen_curve(LawCurve *curve)
+{
+    for (int i = 0; i < curve->count; i++) {
+        curve->x[i] *= 2.0;
+        curve->slope[i] *= 0.5;
+        curve->area[i] *= 2.0;
+    }
+}
+
 int fabric_curve_law(Builder *b, const MaterialDefinition *m, bool first_use, PartRecord *part)
 {
     const FabricCard *f = &m->fabric;
     double eb = f->eb > 0.0 ? f->eb : f->ea, gab = f->gab > 0.0 ? f->gab : 0.5 * f->ea / (1.0 + f->prba);
     CurveLaw *law = builder_alloc(b, 1, sizeof *law);
     if (!law) return -1;
-    CurveBuild c = {.builder = b,
-                    .material = m,
-                    .keyword = "*MAT_FABRIC",
-                    .quiet = !first_use,
-                    .tension = f->cse == 1.0,
-                    .law = law};
+    CurveBuild c = {
+        .builder = b, .material = m, .keyword = m->keyword, .quiet = !first_use, .tension = f->cse == 1.0, .law = law};
+    const DirectionCard map[CURVE_DIRECTIONS] = {
+        {"PXX", "", "EA", f->lca, 0, 0.0}, {"PYY", "", "EB", f->lcb, 0, 0.0}, {"SXY", "", "GAB", f->lcab, 0, 0.0}};
     const DirectionCard cards[CURVE_DIRECTIONS] = {{"LCA", "LCUA", "EA", f->lca, f->lcua, f->ea},
                                                    {"LCB", "LCUB", "EB", f->lcb, f->lcub, eb},
                                                    {"LCAB", "LCUAB", "GAB", f->lcab, f->lcuab, gab}};
     law->engineering = f->form == 24;
     law->reload = f->rl;
-    for (int d = 0; d < CURVE_DIRECTIONS; d++) take_direction(&c, d, &cards[d]);
+    for (int d = 0; d < CURVE_DIRECTIONS; d++) take_direction(&c, d, f->is_map ? &map[d] : &cards[d]);
+    if (f->is_map && !c.status) widen_curve(&law->load[CURVE_SHEAR]);
     check_shares(&c, f->rl, f->h);
     if (c.status) return -1;
     if (first_use && (f->prba != 0.0 || f->prab != 0.0))
         diagnostics_add(
-            b->diagnostics, SEVERITY_WARNING, m->source, "*MAT_FABRIC",
+            b->diagnostics, SEVERITY_WARNING, m->source, m->keyword,
             "material %d: PRBA and PRAB have no effect with FORM = %d and curves; each fibre follows its own "
             "curve",
             m->id, f->form);

@@ -30,18 +30,18 @@ static int fabric_axis(Builder *b, const MaterialDefinition *m, PartRecord *part
         copy3(part->axis.vector, f->v1, f->v2, f->v3);
     } else if (f->aopt < 0.0) {
         CoordinateSystem system;
-        if (coordinates_resolve_system(&b->index, (int)-f->aopt, m->source, "*MAT_FABRIC", &system, b->diagnostics))
+        if (coordinates_resolve_system(&b->index, (int)-f->aopt, m->source, m->keyword, &system, b->diagnostics))
             return -1;
         part->axis.kind = FIBRE_VECTOR;
         memcpy(part->axis.vector, system.axes, sizeof part->axis.vector);
     } else if (f->aopt != 0.0) {
-        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC",
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, m->keyword,
                         "AOPT = %g is not known; use 0, 2, 3 or minus a coordinate system", f->aopt);
         return -1;
     }
     const double *v = part->axis.vector;
     if (part->axis.kind != FIBRE_EDGE && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0) {
-        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC",
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, m->keyword,
                         "AOPT = %g needs a direction, but its vector is zero; fill in %s", f->aopt,
                         f->aopt == 2.0 ? "A1, A2, A3" : "V1, V2, V3");
         return -1;
@@ -72,21 +72,21 @@ static bool fabric_moduli_fail(Builder *b, const MaterialDefinition *m, bool fir
     const double values[] = {f->eb, f->gab, f->el};
     bool fail = f->ea < 0.0 || (f->ea == 0.0 && !by_curves), share = !(f->lratio >= 0.0 && f->lratio <= 1.0);
     if (fail && first_use)
-        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC", "EA = %g must be positive", f->ea);
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, m->keyword, "EA = %g must be positive", f->ea);
     for (int i = 0; i < 3; i++) {
         if (!(values[i] < 0.0)) continue;
         if (first_use)
-            diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC", "%s = %g must not be negative",
+            diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, m->keyword, "%s = %g must not be negative",
                             names[i], values[i]);
         fail = true;
     }
     if (share && first_use)
-        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC",
-                        "LRATIO = %g must lie between 0 and 1", f->lratio);
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, m->keyword, "LRATIO = %g must lie between 0 and 1",
+                        f->lratio);
     if (f->lratio > 0.0 && f->el > 0.0 && !(f->prl > -1.0 && f->prl < 1.0)) {
         if (first_use)
-            diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_FABRIC",
-                            "PRL = %g must lie between -1 and 1", f->prl);
+            diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, m->keyword, "PRL = %g must lie between -1 and 1",
+                            f->prl);
         fail = true;
     }
     return fail || share;
@@ -107,14 +107,14 @@ static int fabric_law(Builder *b, const MaterialDefinition *m, bool first_use, P
     double mismatch = fabs(f->prba * f->ea - prab * eb);
     /* The manual's symmetry: PRBA/EB = PRAB/EA, thus PRBA EA = PRAB EB. */
     if (first_use && mismatch > 1e-6 * (fabs(f->prba * f->ea) + fabs(prab * eb)))
-        diagnostics_add(g, SEVERITY_WARNING, m->source, "*MAT_FABRIC",
+        diagnostics_add(g, SEVERITY_WARNING, m->source, m->keyword,
                         "PRBA = %g and PRAB = %g do not fit EA = %g and EB = %g (PRBA EA must equal PRAB EB); both are "
                         "used as given, their coupling stiffness is made symmetric by the mean",
                         f->prba, prab, f->ea, eb);
     PlaneModuli fabric = law_orthotropic(f->ea, eb, f->prba, prab, gab), liner = {0};
     bool has_liner = f->lratio > 0.0 && f->el > 0.0;
     if (fabric.d11 * fabric.d22 <= fabric.d12 * fabric.d12 || f->prba * prab >= 1.0) {
-        diagnostics_add(g, SEVERITY_ERROR, m->source, "*MAT_FABRIC",
+        diagnostics_add(g, SEVERITY_ERROR, m->source, m->keyword,
                         "EA = %g, EB = %g with PRBA = %g, PRAB = %g give an unstable material; lower Poisson's ratios",
                         f->ea, eb, f->prba, prab);
         return -1;
@@ -156,6 +156,18 @@ static double hourglass_modulus(const Builder *b, const PartDefinition *definiti
     return qh > 0.0 ? qh : 0.1;
 }
 
+/* Materials other than fabric also make shells with bending. */
+static bool is_membrane(Builder *b, const PartDefinition *definition, const char *material,
+                        const SectionShellDefinition *section)
+{
+    if (section->elform == 5 || section->elform == 9) return true;
+    diagnostics_add(b->diagnostics, SEVERITY_ERROR, section->source, "*SECTION_SHELL",
+                    "ELFORM = %d with %s is a shell with bending, which billow does not have; use the membranes 5 or 9 "
+                    "(part %d)",
+                    section->elform, material, definition->id);
+    return false;
+}
+
 static int part_law(Builder *b, const PartDefinition *definition, const MaterialDefinition *m,
                     const SectionShellDefinition *section, PartRecord *part)
 {
@@ -174,15 +186,18 @@ static int part_law(Builder *b, const PartDefinition *definition, const Material
         if (fabric_law(b, m, is_first_use(b, definition), part)) return -1;
         if (is_first_use(b, definition)) warn_of_undamped(b, m, part);
         break;
+    case MATERIAL_ORTHOTROPIC:
+        if (!is_membrane(b, definition, m->keyword, section)) return -1;
+        if (fabric_law(b, m, is_first_use(b, definition), part)) return -1;
+        if (section->elform == 5) part->quad = ELEMENT_QUAD_ONE;
+        break;
+    case MATERIAL_RUBBER:
+        if (!is_membrane(b, definition, m->keyword, section)) return -1;
+        if (rubber_law(b, m, is_first_use(b, definition), part)) return -1;
+        if (section->elform == 5) part->quad = ELEMENT_QUAD_ONE;
+        break;
     case MATERIAL_ELASTIC:
-        if (section->elform != 5 && section->elform != 9) {
-            diagnostics_add(
-                b->diagnostics, SEVERITY_ERROR, section->source, "*SECTION_SHELL",
-                "ELFORM = %d with *MAT_ELASTIC is a shell with bending, which billow does not have; use the "
-                "membranes 5 or 9 (part %d)",
-                section->elform, definition->id);
-            return -1;
-        }
+        if (!is_membrane(b, definition, "*MAT_ELASTIC", section)) return -1;
         if (!(m->e > 0.0) || !(m->pr > -1.0 && m->pr < 1.0)) {
             diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, "*MAT_ELASTIC",
                             "E = %g must be positive and PR = %g between -1 and 1", m->e, m->pr);

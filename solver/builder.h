@@ -73,6 +73,9 @@ int part_material_check(Builder *builder, const PartDefinition *definition, cons
 /* The law of a fabric by curves (FORM 4, 14, -14, 24). first_use: messages come once. 0, or -1 after an error. */
 int fabric_curve_law(Builder *builder, const MaterialDefinition *material, bool first_use, PartRecord *part);
 
+/* The law of *MAT_MOONEY-RIVLIN_RUBBER and *MAT_OGDEN_RUBBER, likewise. */
+int rubber_law(Builder *builder, const MaterialDefinition *material, bool first_use, PartRecord *part);
+
 /* Area of a beam's cross-section, 0 if it is not known. */
 double beam_area(const SectionBeamDefinition *section);
 

@@ -133,12 +133,16 @@ typedef enum MaterialKind {
     MATERIAL_ELASTIC,
     MATERIAL_NULL,
     MATERIAL_RIGID,
-    MATERIAL_SPRING, /* *MAT_SPRING_ELASTIC: k */
-    MATERIAL_CABLE,  /* *MAT_CABLE_DISCRETE_BEAM: ro, e, f0 */
+    MATERIAL_SPRING,      /* *MAT_SPRING_ELASTIC: k */
+    MATERIAL_CABLE,       /* *MAT_CABLE_DISCRETE_BEAM: ro, e, f0 */
+    MATERIAL_ORTHOTROPIC, /* *MAT_ORTHOTROPIC_ELASTIC: the card of a fabric of FORM 2 */
+    MATERIAL_RUBBER,      /* *MAT_MOONEY-RIVLIN_RUBBER, *MAT_OGDEN_RUBBER */
 } MaterialKind;
 
-/* *MAT_FABRIC (MAT_034): every field of the cards, names as in the manual. */
+/* *MAT_FABRIC (MAT_034): every field of the cards, names as in the manual; *MAT_FABRIC_MAP's PXX, PYY and SXY are in
+ * lca, lcb and lcab. */
 typedef struct FabricCard {
+    bool is_map;
     double ea, eb, prba, prab;
     double gab, cse, el, prl, lratio, damp;
     double aopt, flc, fac, ela, lnrc, fvopt, tsrfac;
@@ -151,6 +155,13 @@ typedef struct FabricCard {
     int lcaa, lcbb; /* form -14 */
     double h, dt, ecoat, scoat, tcoat;
 } FabricCard;
+
+/* *MAT_MOONEY-RIVLIN_RUBBER and *MAT_OGDEN_RUBBER. */
+typedef struct RubberCard {
+    bool is_ogden;
+    double a, b, ref, sgl, sw, st, g, sigf, mu[8], alpha[8];
+    int lcid, n, nv;
+} RubberCard;
 
 /* *MAT_RIGID. con1/con2 as written; lco_or_a1 may name a local system when cmo < 0. */
 typedef struct RigidCard {
@@ -169,7 +180,9 @@ typedef struct MaterialDefinition {
     double e, pr, da, db, k;     /* MAT_ELASTIC; MAT_NULL's YM and PR are in e and pr */
     double pc, mu, terod, cerod; /* MAT_NULL */
     double f0;                   /* MAT_CABLE_DISCRETE_BEAM */
+    const char *keyword;         /* as messages call it, a constant of the reader; NULL: *MAT_FABRIC and others' own */
     FabricCard fabric;
+    RubberCard rubber;
     RigidCard rigid;
     Source source;
 } MaterialDefinition;

@@ -54,6 +54,10 @@ static void make_bag(Scene *scene, ScenePattern pattern, int form)
                           .lratio = 0.1};
     if (form == 14 || form == 24)
         write_curves(deck, form);
+    else if (form == 77)
+        scene_print(deck, "*MAT_OGDEN_RUBBER\n1,1000,.499\n6.3e6,1.2e4,-1e5\n1.3,5,-2\n");
+    else if (form == 27)
+        scene_print(deck, "*MAT_MOONEY-RIVLIN_RUBBER\n1,1000,.499,2e6,5e5\n");
     else
         scene_write_fabric(deck, 1, &fabric);
     scene_write_part_set(deck, 1, 2, (const int[]){1, 2});
@@ -96,6 +100,16 @@ static void make_curve_triangles(Scene *scene)
 static void make_curve_quads(Scene *scene)
 {
     make_bag(scene, SCENE_QUADS, 14);
+}
+
+static void make_ogden_triangles(Scene *scene)
+{
+    make_bag(scene, SCENE_DIAGONAL, 77);
+}
+
+static void make_mooney_quads(Scene *scene)
+{
+    make_bag(scene, SCENE_QUADS, 27);
 }
 
 /* An elastic tube between a fixed and a falling rigid disc. */
@@ -171,6 +185,8 @@ static const struct DeterminismCase {
              {"triangles, curves", make_curve_triangles, false},
              {"quads, curves", make_curve_quads, false},
              {"one-point quads, curves", make_curve_quads, true},
+             {"triangles, Ogden", make_ogden_triangles, false},
+             {"quads, Mooney-Rivlin", make_mooney_quads, false},
              {"rigid bodies", make_bounce, false},
              {"walls and cables", make_walls, false},
              {"driver bag", NULL, false}};
