@@ -1,10 +1,15 @@
-/* Forces and energies of links. Equations (K1) to (K5) of docs/theory.md. */
+/* Forces and energies of links. Equations (K1) to (K6) of docs/theory.md. */
 #include "elements/link.h"
 
 #include "solver/elementary.h"
 
 double link_tension(const Link *link, double length, double *energy)
 {
+    if (link->curve) {
+        double strain = length / link->length - 1.0;
+        *energy = link->length * law_curve_area(link->curve, strain);
+        return law_curve_stress(link->curve, strain);
+    }
     if (link->logarithmic) {
         double strain = elementary_log(length / link->length);
         *energy = link->stiffness * (length * strain - length + link->length);
@@ -14,6 +19,17 @@ double link_tension(const Link *link, double length, double *energy)
     if (link->tension_only && tension < 0.0) tension = 0.0;
     *energy = 0.5 * tension * tension / link->stiffness;
     return tension;
+}
+
+double link_slope(const Link *link, double length)
+{
+    double energy;
+    if (link->logarithmic) return link->stiffness / length;
+    if (link->curve) {
+        const double step = 1e-6 * link->length;
+        return (link_tension(link, length + step, &energy) - link_tension(link, length - step, &energy)) / (2.0 * step);
+    }
+    return link->tension_only && !(link_tension(link, length, &energy) > 0.0) ? 0.0 : link->stiffness;
 }
 
 double link_rate(const Link *link, double length, double tension)

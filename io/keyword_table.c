@@ -11,8 +11,9 @@ static const KeywordFamily *const families[] = {
     &keyword_family_sets,          &keyword_family_curves,      &keyword_family_functions,
     &keyword_family_coordinates,   &keyword_family_boundary,    &keyword_family_initial,
     &keyword_family_load,          &keyword_family_damping,     &keyword_family_rigidwall,
-    &keyword_family_solids,        &keyword_family_links,       &keyword_family_rigid_bodies,
-    &keyword_family_control,       &keyword_family_database,    &keyword_family_ignored,
+    &keyword_family_solids,        &keyword_family_links,       &keyword_family_seatbelt,
+    &keyword_family_rigid_bodies,  &keyword_family_control,     &keyword_family_database,
+    &keyword_family_ignored,
 };
 
 int keyword_family_count(void)

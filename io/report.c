@@ -77,6 +77,8 @@ static const char *material_name(int kind)
         return "orthotropic";
     case MATERIAL_RUBBER:
         return "rubber";
+    case MATERIAL_BELT:
+        return "strap";
     default:
         return "?";
     }

@@ -153,6 +153,12 @@ static int finish_law(CurveBuild *c, double hysteresis, PlaneModuli liner, doubl
     return 0;
 }
 
+int material_curve(Builder *b, const MaterialDefinition *m, const char *field, int id, LawCurve *curve)
+{
+    CurveBuild c = {.builder = b, .material = m, .keyword = m->keyword};
+    return take_curve(&c, field, id, false, true, curve);
+}
+
 /* From a curve over E12 to one over 2 E12. */
 static void widen_curve(LawCurve *curve)
 {

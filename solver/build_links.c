@@ -68,6 +68,22 @@ static double beam_mass(const SectionBeamDefinition *section, const MaterialDefi
     return material->ro * (section->elform == 6 ? section->vol : beam_area(section) * length);
 }
 
+/* A strap's curve, once for each element; its length with the slack (K6). */
+static int belt_law(Builder *b, const LinkCard *card, const MaterialDefinition *material, double length, Link *link,
+                    double *mass)
+{
+    LawCurve *curve = builder_alloc(b, 1, sizeof *curve);
+    if (!curve || material_curve(b, material, "LLCID", material->llcid, curve)) return -1;
+    link->curve = curve;
+    link->tension_only = true;
+    link->length = length + card->spring->slack;
+    if (!(link->length > 0.0)) return refuse_law(b, card, "length", link->length, "move its nodes apart or give SLEN");
+    link->stiffness = law_curve_steepest(curve) / link->length;
+    if (!(material->ro > 0.0)) return refuse_law(b, card, "MPUL", material->ro, "a strap needs its mass per length");
+    *mass = material->ro * link->length;
+    return 0;
+}
+
 /* One element: its mass goes to the nodes; a beam of a rigid part is no link. */
 static int build_link(Builder *b, const LinkCard *card, SectionKind kind)
 {
@@ -92,7 +108,15 @@ static int build_link(Builder *b, const LinkCard *card, SectionKind kind)
     vector3_subtract(b->x + 3 * (ptrdiff_t)node[1], b->x + 3 * (ptrdiff_t)node[0], span);
     double length = vector3_norm(span), mass = 0.0;
     Link link = {.id = card->id, .part = part, .node = {node[0], node[1]}};
-    if (card->spring) {
+    if (card->spring && card->spring->is_belt != (material->kind == MATERIAL_BELT)) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, card->source, card->keyword,
+                        "element %d of part %d: straps have *MAT_SEATBELT, springs *MAT_SPRING_ELASTIC; correct MID",
+                        card->id, card->part);
+        return -1;
+    }
+    if (card->spring && card->spring->is_belt) {
+        if (belt_law(b, card, material, length, &link, &mass)) return -1;
+    } else if (card->spring) {
         link.stiffness = material->k * card->spring->s;
         link.length = length - card->spring->offset;
         if (!(link.stiffness > 0.0)) return refuse_law(b, card, "K S", link.stiffness, "a spring needs a stiffness");
@@ -128,8 +152,12 @@ int build_links(Builder *b)
     }
     for (size_t i = 0; i < d->discretes.count; i++) {
         const DiscreteDefinition *spring = &d->discretes.items[i];
-        LinkCard card = {spring->id, spring->part,        {spring->node[0], spring->node[1]},
-                         spring,     "*ELEMENT_DISCRETE", spring->source};
+        LinkCard card = {spring->id,
+                         spring->part,
+                         {spring->node[0], spring->node[1]},
+                         spring,
+                         spring->is_belt ? "*ELEMENT_SEATBELT" : "*ELEMENT_DISCRETE",
+                         spring->source};
         if (build_link(b, &card, SECTION_DISCRETE)) status = -1;
     }
     return status;

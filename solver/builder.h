@@ -76,6 +76,10 @@ int fabric_curve_law(Builder *builder, const MaterialDefinition *material, bool 
 /* The law of *MAT_MOONEY-RIVLIN_RUBBER and *MAT_OGDEN_RUBBER, likewise. */
 int rubber_law(Builder *builder, const MaterialDefinition *material, bool first_use, PartRecord *part);
 
+/* A curve of stress or force over strain that a material's field names, for tension; storage is the Model's. 0, or -1
+ * after an error. */
+int material_curve(Builder *builder, const MaterialDefinition *material, const char *field, int id, LawCurve *curve);
+
 /* Area of a beam's cross-section, 0 if it is not known. */
 double beam_area(const SectionBeamDefinition *section);
 

@@ -66,11 +66,13 @@ typedef struct SectionBeamDefinition { /* *SECTION_BEAM; which members count dep
     Source source, card2;
 } SectionBeamDefinition;
 
-typedef struct DiscreteDefinition { /* *ELEMENT_DISCRETE */
+typedef struct DiscreteDefinition { /* *ELEMENT_DISCRETE, *ELEMENT_SEATBELT */
     int id, part;
     int node[2];
     int vid;
     double s, offset;
+    bool is_belt; /* *ELEMENT_SEATBELT, with */
+    double slack; /* SLEN */
     Source source;
 } DiscreteDefinition;
 
@@ -137,6 +139,7 @@ typedef enum MaterialKind {
     MATERIAL_CABLE,       /* *MAT_CABLE_DISCRETE_BEAM: ro, e, f0 */
     MATERIAL_ORTHOTROPIC, /* *MAT_ORTHOTROPIC_ELASTIC: the card of a fabric of FORM 2 */
     MATERIAL_RUBBER,      /* *MAT_MOONEY-RIVLIN_RUBBER, *MAT_OGDEN_RUBBER */
+    MATERIAL_BELT,        /* *MAT_SEATBELT */
 } MaterialKind;
 
 /* *MAT_FABRIC (MAT_034): every field of the cards, names as in the manual; *MAT_FABRIC_MAP's PXX, PYY and SXY are in
@@ -180,6 +183,7 @@ typedef struct MaterialDefinition {
     double e, pr, da, db, k;     /* MAT_ELASTIC; MAT_NULL's YM and PR are in e and pr */
     double pc, mu, terod, cerod; /* MAT_NULL */
     double f0;                   /* MAT_CABLE_DISCRETE_BEAM */
+    int llcid;                   /* MAT_SEATBELT; its MPUL is in ro */
     const char *keyword;         /* as messages call it, a constant of the reader; NULL: *MAT_FABRIC and others' own */
     FabricCard fabric;
     RubberCard rubber;

@@ -97,9 +97,7 @@ static void add_links(RelaxSystem *s, const double *x, bool stiffness)
             s->force[3 * (ptrdiff_t)link->node[1] + k] -= tension * along[k];
         }
         if (!stiffness) continue;
-        double slope = link->logarithmic ? link->stiffness / length : link->stiffness,
-               across = tension > 0.0 ? tension / length : 0.0, k[36] = {0};
-        if (link->tension_only && !(tension > 0.0)) slope = 0.0;
+        double slope = link_slope(link, length), across = tension > 0.0 ? tension / length : 0.0, k[36] = {0};
         for (int a = 0; a < 2; a++)
             for (int b = 0; b < 2; b++)
                 for (int r = 0; r < 3; r++)
