@@ -137,6 +137,60 @@ static GeometryStatus free_of_warp(const ElementInput *input, int point, double 
     return GEOMETRY_OK;
 }
 
+/* The metric that an element at x has in the reference of m, in material axes (11, 22, 12) (eq. E4, E4a, E17). */
+static void start_metric(const ElementInput *input, int point, const double m[4], double c[3])
+{
+    ElementInput at = *input;
+    double t1[3], t2[3], f1[3], f2[3];
+    at.x = input->start;
+    tangents(&at, point, t1, t2);
+    for (int k = 0; k < 3; k++) {
+        f1[k] = m[0] * t1[k] + m[2] * t2[k];
+        f2[k] = m[1] * t1[k] + m[3] * t2[k];
+    }
+    c[0] = dot(f1, f1);
+    c[1] = dot(f2, f2);
+    c[2] = dot(f1, f2);
+    if (input->kind != ELEMENT_QUAD_ONE && !has_fold(input)) return;
+    double skew[2], aa, bb, qq, e[3], q[3];
+    hourglass_geometry(input->x, skew, &aa, &bb, &qq);
+    for (int k = 0; k < 3; k++) {
+        const double *x = input->start + k;
+        q[k] = 0.25 * (((x[0] - x[3]) + (x[6] - x[9])) - skew[0] * ((x[3] - x[0]) + (x[6] - x[9])) -
+                       skew[1] * ((x[9] - x[0]) + (x[6] - x[3])));
+    }
+    if (input->kind == ELEMENT_QUAD_ONE) {
+        e[0] = (m[0] * m[0] + m[2] * m[2]) / 3.0;
+        e[1] = (m[1] * m[1] + m[3] * m[3]) / 3.0;
+        e[2] = (m[0] * m[1] + m[2] * m[3]) / 3.0;
+    } else {
+        fold_metric(point, m, e);
+    }
+    for (int i = 0; i < 3; i++) c[i] += dot(q, q) * e[i];
+}
+
+/* Adds to the reference what the start is stretched beyond it: M becomes M U+^-1, the area grows by det U+ (eq. R3,
+ * R4).
+ */
+static void take_out_stretch(const ElementInput *input, int point, double m[4], double *area)
+{
+    double c[3];
+    start_metric(input, point, m, c);
+    double mean = 0.5 * (c[0] + c[1]), half = 0.5 * (c[0] - c[1]), radius = sqrt(half * half + c[2] * c[2]);
+    double major = mean + radius > 1.0 ? sqrt(mean + radius) : 1.0;
+    double minor = mean - radius > 1.0 ? sqrt(mean - radius) : 1.0;
+    if (!(major > 1.0)) return;
+    double cosine = radius > 0.0 ? half / radius : 1.0, sine = radius > 0.0 ? c[2] / radius : 0.0;
+    double centre = 0.5 * (1.0 / major + 1.0 / minor), spread = 0.5 * (1.0 / major - 1.0 / minor);
+    double u11 = centre + spread * cosine, u22 = centre - spread * cosine, u12 = spread * sine;
+    for (int i = 0; i < 4; i += 2) {
+        double m1 = m[i] * u11 + m[i + 1] * u12, m2 = m[i] * u12 + m[i + 1] * u22;
+        m[i] = m1;
+        m[i + 1] = m2;
+    }
+    *area *= major * minor;
+}
+
 /* One point's M and its area factor: |dX/d(natural)| times the natural weight. */
 static GeometryStatus point_geometry(const ElementInput *input, int point, double m[4], double *area)
 {
@@ -153,7 +207,9 @@ static GeometryStatus point_geometry(const ElementInput *input, int point, doubl
     m[3] = j11 / det;
     double natural = input->kind == ELEMENT_TRIANGLE ? 0.5 : input->kind == ELEMENT_QUAD_FULL ? 1.0 : 4.0;
     *area = natural * det;
-    return has_fold(input) ? free_of_warp(input, point, m) : GEOMETRY_OK;
+    if (has_fold(input)) status = free_of_warp(input, point, m);
+    if (status == GEOMETRY_OK && input->start) take_out_stretch(input, point, m, area);
+    return status;
 }
 
 /* Normals of a quad's four corners must all lie on the side of its mean normal. */
@@ -233,11 +289,21 @@ static void hourglass_moduli(const FabricLaw *law, double weight, double aa, dou
     c[1] = law->hourglass * law->whole.d22 * weight / (3.0 * bb * bb);
 }
 
+/* Squared lengths of the mean tangents where the reference is not that of the corners: of M^-1. */
+static void stretched_lengths(const ElementInput *input, const double m[4], double *aa, double *bb)
+{
+    if (!input->start) return;
+    double det = m[0] * m[3] - m[1] * m[2];
+    *aa = (m[3] * m[3] + m[2] * m[2]) / (det * det);
+    *bb = (m[1] * m[1] + m[0] * m[0]) / (det * det);
+}
+
 /* Adds the hourglass stiffness: r1 = q.a, with dq = dh - skew1 da - skew2 db. */
 static void add_hourglass_stiffness(const ElementInput *input, double weight, const double m[4], double *k)
 {
     double skew[2], aa, bb, qq, c[2];
     hourglass_geometry(input->x, skew, &aa, &bb, &qq);
+    stretched_lengths(input, m, &aa, &bb);
     hourglass_moduli(input->law, weight, aa, bb, c);
     const double xi_a[4] = {-1, 1, 1, -1}, eta_a[4] = {-1, -1, 1, 1};
     double det = m[0] * m[3] - m[1] * m[2];
@@ -289,6 +355,17 @@ static double stress_spread(const ElementInput *input, int point, const double m
     return geometry_largest_eigenvalue(corners, k);
 }
 
+GeometryStatus geometry_check(const ElementInput *input)
+{
+    double m[4], area;
+    GeometryStatus status = GEOMETRY_OK;
+    if (input->kind != ELEMENT_TRIANGLE && !quad_is_convex(input->x))
+        status = geometry_area(4, input->x) > 0.0 ? GEOMETRY_INVERTED : GEOMETRY_ZERO_AREA;
+    for (int p = 0; status == GEOMETRY_OK && p < point_count(input->kind); p++)
+        status = point_geometry(input, p, m, &area);
+    return status;
+}
+
 GeometryStatus geometry_fill(const ElementInput *input, double sign, double *lane)
 {
     if (!input->law) {
@@ -318,6 +395,7 @@ GeometryStatus geometry_fill(const ElementInput *input, double sign, double *lan
         double *constant = tail + GEOMETRY_TAIL_SIZE * BILLOW_LANES;
         double skew[2], aa, bb, qq, c[2];
         hourglass_geometry(input->x, skew, &aa, &bb, &qq);
+        stretched_lengths(input, m, &aa, &bb); /* m: of the only point where the moduli count */
         hourglass_moduli(input->law, volume, aa, bb, c);
         for (int i = 0; i < 2; i++) {
             constant[(GEOMETRY_SKEW1 + i) * BILLOW_LANES] = skew[i];

@@ -15,10 +15,11 @@ typedef struct FibreAxis {
 } FibreAxis;
 
 /* Input for one element of the given kind: reference corners (corner_count x 3), thickness, mass carried by the
- * element. */
+ * element. With start (corners in the mesh, corner_count x 3) the stretch that the reference has in the mesh beyond 1
+ * is added to the reference, so that the element starts without tension (eq. R3, R4). */
 typedef struct ElementInput {
     ElementKind kind;
-    const double *x;
+    const double *x, *start; /* start: NULL if nothing is taken out */
     double thickness, mass;
     FibreAxis axis;
     const FabricLaw *law; /* NULL for surfaces */
@@ -31,6 +32,9 @@ int geometry_size(ElementKind kind, LawKind law);
 
 /* Fills the lane's constants (stride BILLOW_LANES between values, layout of elements/kernels.h); sign as given. */
 GeometryStatus geometry_fill(const ElementInput *input, double sign, double *lane);
+
+/* Whether geometry_fill will accept the element. */
+GeometryStatus geometry_check(const ElementInput *input);
 
 /* Area of an element: sum of its points' areas; zero for degenerate ones. x: corners (corner_count x 3). */
 double geometry_area(int corner_count, const double *x);

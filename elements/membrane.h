@@ -5,13 +5,13 @@
 #include "solver/model.h"
 #include "solver/state.h"
 
-/* Stress and strain of one element at its centre (mean over points) for output: symmetric tensors in global axes, order
- * xx yy zz xy yz zx; Cauchy stress [F/L2]; strain U - 1, logarithmic or Green as the law has it. thickness is the
- * current [L]. element is the deck-order index. Rigid and surface elements give zero stress. history: State.history at
- * x, which laws with unloading curves need; NULL: as if never loaded before. */
+/* Stress and strain of one element at its centre (mean over points) for output, by the reference geometry of the state:
+ * symmetric tensors in global axes, order xx yy zz xy yz zx; Cauchy stress [F/L2]; strain U - 1, logarithmic or Green
+ * as the law has it. thickness is the current [L]. element is the deck-order index. Rigid and surface elements give
+ * zero stress. */
 typedef struct ElementResult {
     double stress[6], strain[6], thickness;
 } ElementResult;
-void membrane_result(const Model *model, const double *x, const double *history, int element, ElementResult *result);
+void membrane_result(const Model *model, const State *state, const double *x, int element, ElementResult *result);
 
 #endif

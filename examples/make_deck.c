@@ -31,6 +31,11 @@ static void make_driver_bag(Scene *scene, const Options *options)
     scene_driver_bag(scene, options->n);
 }
 
+static void make_sewn_bag(Scene *scene, const Options *options)
+{
+    scene_sewn_bag(scene, options->n);
+}
+
 static void make_cushion(Scene *scene, const Options *options)
 {
     scene_cushion(scene, options->n);
@@ -78,6 +83,7 @@ static const struct SceneName {
 } scene_names[] = {
     {"driver-bag", "circular driver bag inflated from flat (-n rings)", make_driver_bag},
     {"cushion", "square cushion inflated from flat (-n cells per side)", make_cushion},
+    {"sewn-bag", "disc and ellipse of one perimeter, sewn by their reference geometry (-n rings)", make_sewn_bag},
     {"landing-pad", "ring-shaped landing pad with a nozzle (-n cells across)", make_landing_pad},
     {"prestressed-cushion", "square cushion, inflated at the start, falls onto the floor (-n cells per side)",
      make_prestressed_cushion},

@@ -241,6 +241,7 @@ void scene_driver_bag(Scene *scene, int n);
 void scene_cushion(Scene *scene, int n);
 void scene_landing_pad(Scene *scene, int n);
 void scene_prestressed_cushion(Scene *scene, int n);
+void scene_sewn_bag(Scene *scene, int n);
 
 /* The speed benchmark: gas-filled cushion of about the given number of shells, orthotropic fabric FORM 0 with CSE. The
  * run takes about the given number of cycles. */

@@ -41,7 +41,6 @@ static uint64_t hash_mesh(uint64_t hash, const Model *model)
     hash = hash_int(hash, model->moving_count);
     hash = hash_bytes(hash, model->node_id, nodes * sizeof *model->node_id);
     hash = hash_bytes(hash, model->initial, 3 * nodes * sizeof *model->initial);
-    hash = hash_bytes(hash, model->reference, 3 * nodes * sizeof *model->reference);
     hash = hash_bytes(hash, model->mass, nodes * sizeof *model->mass);
     hash = hash_int(hash, model->element_count);
     hash = hash_bytes(hash, model->element_id, elements * sizeof *model->element_id);
@@ -66,6 +65,11 @@ static uint64_t hash_groups(uint64_t hash, const Model *model)
                                     law->damping,    law->density,    law->hourglass};
         hash = hash_bytes(hash, constants, sizeof constants);
         hash = hash_int(hash, law->no_compression);
+        if (!group->has_reference) continue;
+        size_t size = (size_t)group->block_count * (size_t)group->geometry_size * BILLOW_LANES;
+        hash = hash_bytes(hash, group->geometry, size * sizeof *group->geometry);
+        hash = hash_double(hash, group->birth);
+        hash = hash_int(hash, 8 * (int)group->rule.restore + 2 * group->rdt + group->rule.liner_waits);
     }
     return hash;
 }

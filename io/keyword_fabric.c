@@ -24,12 +24,12 @@ static const FieldSpec card2_fields[] = {
 static const FieldSpec card3_fields[] = {
     CARD_REAL("AOPT", fabric.aopt, USED, NONE),   CARD_REAL("FLC", fabric.flc, USED, NONE),
     CARD_REAL("FAC", fabric.fac, USED, NONE),     CARD_REAL("ELA", fabric.ela, USED, NONE),
-    CARD_REAL("LNRC", fabric.lnrc, LISTED, NONE), CARD_INT("FORM", fabric.form, USED, NONE),
-    CARD_REAL("FVOPT", fabric.fvopt, USED, NONE), CARD_REAL("TSRFAC", fabric.tsrfac, LISTED, NONE),
+    CARD_REAL("LNRC", fabric.lnrc, USED, NONE),   CARD_INT("FORM", fabric.form, USED, NONE),
+    CARD_REAL("FVOPT", fabric.fvopt, USED, NONE), CARD_REAL("TSRFAC", fabric.tsrfac, USED, NONE),
 };
 static const FieldSpec card4_fields[] = {
     CARD_GAP,
-    CARD_REAL("RGBRTH", fabric.rgbrth, LISTED, TIME),
+    CARD_REAL("RGBRTH", fabric.rgbrth, USED, TIME),
     CARD_REAL("A0REF", fabric.a0ref, USED, NONE),
     CARD_REAL("A1", fabric.a1, USED, NONE),
     CARD_REAL("A2", fabric.a2, USED, NONE),
@@ -147,7 +147,9 @@ static const KeywordSpec specs[] = {
          "curve depends on. FLC, FAC, ELA, FVOPT, X0, X1 and A0REF are for leakage through the fabric, which OPT of "
          "the "
          "airbag switches on; FLC < 0, FAC < 0 and ELA < 0 name curves; where X0 is neither 0 nor 1 FLC and FAC are X2 "
-         "and X3. LNRC, RGBRTH, TSRFAC and ISREFG are for reference geometries: without those they have no effect."},
+         "and X3. LNRC, RGBRTH and TSRFAC act on a reference geometry (docs/theory.md): LNRC = 1 with CSE = 1 only, 0 "
+         "< TSRFAC < "
+         "1 and TSRFAC < 0 (minus a curve) by cycle, TSRFAC >= 1 a curve over time. ISREFG has no effect."},
 };
 
 const KeywordFamily keyword_family_fabric = {"Fabric", specs, (int)(sizeof specs / sizeof *specs)};

@@ -60,6 +60,7 @@ void log_write_deck(Log *log, const Definitions *definitions, const Model *model
         fprintf(file, "goes on at cycle %lld, time %.9g\n", (long long)state->clock->cycle, state->clock->time);
     report_write_keywords(definitions, file);
     report_write_parts(model, file);
+    report_write_reference(model, file);
     report_write_airbags(model, state, file);
     report_write_conditions(model, file);
     report_write_walls(model, file);

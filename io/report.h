@@ -15,6 +15,9 @@ void report_write_keywords(const Definitions *definitions, FILE *stream);
 /* Nodes, elements, parts with material, thickness, area and mass; moving rigid bodies. */
 void report_write_parts(const Model *model, FILE *stream);
 
+/* Parts with a reference geometry: areas and masses by both geometries, and what holds when; nothing without one. */
+void report_write_reference(const Model *model, FILE *stream);
+
 /* Each bag's surface (orientation, free edges, caps with their place), volume and gas at the state. */
 void report_write_airbags(const Model *model, const State *state, FILE *stream);
 

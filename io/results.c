@@ -167,7 +167,7 @@ int results_write_state(Results *results, const Model *model, const State *state
     if (!results->grid && vtkhdf_create(results->grid_path, model, &results->grid, results->diagnostics)) return -1;
     if (!results->xdmf && start_xdmf(results, model)) return -1;
     int before = vtkhdf_state_count(results->grid);
-    if (vtkhdf_write_state(results->grid, model, time, view->x, view->v, state->history)) return -1;
+    if (vtkhdf_write_state(results->grid, model, state, time, view->x, view->v)) return -1;
     return vtkhdf_state_count(results->grid) > before ? xdmf_add_state(results->xdmf, before, time) : 0;
 }
 

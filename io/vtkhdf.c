@@ -226,7 +226,7 @@ static int write_displacements(VtkHdf *grid, const Model *model, const double *x
     return 0;
 }
 
-static int write_cell_data(VtkHdf *grid, const Model *model, const double *x, const double *history)
+static int write_cell_data(VtkHdf *grid, const Model *model, const State *state, const double *x)
 {
     float *stress = (float *)(void *)grid->rows, *strain = stress + 6 * (ptrdiff_t)grid->piece,
           *thickness = strain + 6 * (ptrdiff_t)grid->piece;
@@ -234,7 +234,7 @@ static int write_cell_data(VtkHdf *grid, const Model *model, const double *x, co
         int count = piece_length(grid, first, model->element_count);
         for (int e = 0; e < count; e++) {
             ElementResult result;
-            membrane_result(model, x, history, first + e, &result);
+            membrane_result(model, state, x, first + e, &result);
             for (int c = 0; c < 6; c++) {
                 stress[6 * (ptrdiff_t)e + c] = (float)result.stress[c];
                 strain[6 * (ptrdiff_t)e + c] = (float)result.strain[c];
@@ -249,11 +249,11 @@ static int write_cell_data(VtkHdf *grid, const Model *model, const double *x, co
     return 0;
 }
 
-static int append_rows(VtkHdf *grid, const Model *model, const double *x, const double *v, const double *history)
+static int append_rows(VtkHdf *grid, const Model *model, const State *state, const double *x, const double *v)
 {
     return extend_arrays(grid) || write_vectors(grid, model, DATA_POINTS, x) ||
                    write_vectors(grid, model, DATA_VELOCITY, v) || write_displacements(grid, model, x) ||
-                   write_cell_data(grid, model, x, history)
+                   write_cell_data(grid, model, state, x)
                ? -1
                : 0;
 }
@@ -275,15 +275,15 @@ static int append_step(VtkHdf *grid, double time)
                : 0;
 }
 
-int vtkhdf_write_state(VtkHdf *grid, const Model *model, double time, const double *x, const double *v,
-                       const double *history)
+int vtkhdf_write_state(VtkHdf *grid, const Model *model, const State *state, double time, const double *x,
+                       const double *v)
 {
     if (grid->count > 0 && !(time > grid->times[grid->count - 1])) return 0;
     if (memory_reserve((void **)&grid->times, &grid->capacity, grid->count + 1, sizeof *grid->times))
         return vtkhdf_report_memory(grid->diagnostics, grid->path);
     errno = 0;
     if (vtkhdf_reserve_space(grid, state_bytes(grid))) return vtkhdf_report_failure(grid, "write");
-    if (append_rows(grid, model, x, v, history) || append_step(grid, time)) {
+    if (append_rows(grid, model, state, x, v) || append_step(grid, time)) {
         grid->broken = true;
         return vtkhdf_report_failure(grid, "write");
     }

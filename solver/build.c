@@ -122,7 +122,8 @@ static void builder_free(Builder *b)
     for (int i = 0; b->closures && i < b->model->airbag_count; i++) surface_closure_free(&b->closures[i]);
     motion_free(&b->motion);
     deck_index_free(&b->index);
-    void *blocks[] = {b->x, b->mass, b->records, b->parts, b->closures, b->order, b->wall_node, b->link_mass};
+    void *blocks[] = {b->x,     b->mass,      b->records,   b->parts,      b->closures,
+                      b->order, b->wall_node, b->link_mass, b->references, b->reference_classes.items};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
 }
 
@@ -144,6 +145,7 @@ static int run_stages(Builder *b)
         return -1;
     }
     status = build_shells(b);
+    if (!status && build_reference(b)) status = -1;
     if (build_solids(b)) status = -1;
     if (build_links(b) || status) return -1;
     errors = b->diagnostics->errors;

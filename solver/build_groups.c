@@ -2,7 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/kernels.h"
+#include "elements/lane.h"
+#include "elements/reference.h"
 #include "solver/builder.h"
 #include "solver/memory.h"
 
@@ -10,7 +11,20 @@ enum { LANES = BILLOW_LANES };
 
 static bool same_group(const ShellRecord *a, const ShellRecord *b)
 {
-    return a->part == b->part && a->kind == b->kind && a->law == b->law && a->pressure_set == b->pressure_set;
+    return a->part == b->part && a->kind == b->kind && a->law == b->law && a->pressure_set == b->pressure_set &&
+           a->reference == b->reference;
+}
+
+/* The class of reference of a group's elements. */
+static void refer_group(Builder *b, const ShellRecord *r, ElementGroup *group)
+{
+    const ReferenceClass *class = &b->reference_classes.items[r->reference - 1];
+    group->has_reference = true;
+    group->birth = class->birth;
+    group->rdt = class->rdt;
+    group->rule = b->parts[r->part].reference_rule;
+    b->model->has_reference = true;
+    b->model->liner_waits |= group->rule.liner_waits;
 }
 
 /* Cuts the element order into groups. */
@@ -34,6 +48,7 @@ static int cut_groups(Builder *b)
             group->corner_count = r->corner_count;
             group->point_count = r->kind == ELEMENT_QUAD_FULL ? 4 : 1;
             if (r->law != LAW_SURFACE) group->material = b->parts[r->part].fabric;
+            if (r->reference > 0) refer_group(b, r, group);
         }
         group->element_count++;
     }
@@ -76,13 +91,23 @@ static const char *geometry_problem(GeometryStatus status)
     return "";
 }
 
-/* Kernel input of one record; x receives the corners. */
-static ElementInput record_input(const Builder *b, const ShellRecord *r, const double *positions, double *x)
+/* Which geometry an element's constants are of. */
+typedef enum Geometry {
+    GEOMETRY_MESH,
+    GEOMETRY_REFERENCE, /* without the tension that it has in the mesh; the mesh's if there is no reference */
+    GEOMETRY_TENSION,   /* with it */
+} Geometry;
+
+/* Kernel input of one record; x receives the corners in the mesh. */
+static ElementInput record_input(const Builder *b, int record, const double *positions, Geometry which, double *x)
 {
+    const ShellRecord *r = &b->records[record];
     for (int a = 0; a < r->corner_count; a++)
         for (int k = 0; k < 3; k++) x[3 * a + k] = positions[3 * r->node[a] + k];
+    bool refers = r->reference > 0 && which != GEOMETRY_MESH;
     ElementInput input = {.kind = r->kind,
-                          .x = x,
+                          .x = refers ? b->references[record].x : x,
+                          .start = refers && which == GEOMETRY_REFERENCE ? x : NULL,
                           .thickness = r->thickness,
                           .mass = r->mass,
                           .axis = r->axis,
@@ -90,26 +115,27 @@ static ElementInput record_input(const Builder *b, const ShellRecord *r, const d
     return input;
 }
 
-/* Fills one group's node table and constants; lanes beyond the last element repeat it with weight and sign 0. */
-static int fill_group(Builder *b, ElementGroup *group, int first)
+/* The record of a group's lane; lanes beyond the last element repeat it. */
+static int lane_record(const Builder *b, const ElementGroup *group, int first, int e)
 {
-    Model *m = b->model;
-    size_t blocks = (size_t)group->block_count;
-    int32_t *node = builder_alloc(b, blocks * (size_t)group->corner_count * LANES, sizeof *node);
-    double *geometry = builder_alloc(b, blocks * (size_t)group->geometry_size * LANES, sizeof *geometry);
-    int status = node && geometry ? 0 : -1;
-    for (int e = 0; !status && e < group->block_count * LANES; e++) {
+    return b->order[first + (e < group->element_count ? e : group->element_count - 1)];
+}
+
+/* Fills a group's constants from one geometry; lanes beyond the last element have weight and sign 0. -1 without memory,
+ * 1 after an error of the deck. */
+static int fill_geometry(Builder *b, const ElementGroup *group, int first, Geometry which, const double **filled)
+{
+    size_t size = (size_t)group->block_count * (size_t)group->geometry_size * LANES;
+    double *geometry = builder_alloc(b, size, sizeof *geometry);
+    int status = geometry ? 0 : -1;
+    *filled = geometry;
+    for (int e = 0; status >= 0 && e < group->block_count * LANES; e++) {
         bool real = e < group->element_count;
-        int record = b->order[first + (real ? e : group->element_count - 1)];
-        const ShellRecord *r = &b->records[record];
-        size_t block = (size_t)e / LANES, lane = (size_t)e % LANES;
-        for (int a = 0; a < group->corner_count; a++)
-            node[(block * (size_t)group->corner_count + (size_t)a) * LANES + lane] = r->node[a];
-        if (real && record < b->shell_count) m->element_slot[record] = group->first_element + e;
+        int record = lane_record(b, group, first, e);
         double x[12];
-        ElementInput input = record_input(b, r, m->reference, x);
-        double *out = geometry + block * (size_t)group->geometry_size * LANES + lane;
-        GeometryStatus problem = geometry_fill(&input, real ? r->orientation : 0.0, out);
+        ElementInput input = record_input(b, record, b->model->initial, which, x);
+        double *out = geometry + (size_t)(e / LANES) * (size_t)group->geometry_size * LANES + e % LANES;
+        GeometryStatus problem = geometry_fill(&input, real ? b->records[record].orientation : 0.0, out);
         if (problem != GEOMETRY_OK && real) {
             const ShellDefinition *shell = &b->definitions->shells.items[record];
             diagnostics_add(b->diagnostics, SEVERITY_ERROR, shell->source, "*ELEMENT_SHELL", "element %d %s", shell->id,
@@ -120,8 +146,44 @@ static int fill_group(Builder *b, ElementGroup *group, int first)
         for (int p = 0; p < group->point_count; p++) out[(p * GEOMETRY_POINT_SIZE + GEOMETRY_WEIGHT) * LANES] = 0.0;
         for (int i = group->point_count * GEOMETRY_POINT_SIZE; i < group->geometry_size; i++) out[i * LANES] = 0.0;
     }
+    return status;
+}
+
+/* How far each element is shrunk in the mesh. */
+static int fill_start(Builder *b, ElementGroup *group)
+{
+    double *square = builder_alloc(b, (size_t)group->block_count * LANES, sizeof *square);
+    if (!square) return -1;
+    for (int64_t e = 0; e < group->element_count; e++)
+        square[e] = reference_least_square(group, group->geometry + lane_offset(group, e), b->model->initial, e);
+    group->start_square = square;
+    return 0;
+}
+
+/* Fills one group's node table and constants: of the reference, and what else a run needs. */
+static int fill_group(Builder *b, ElementGroup *group, int first)
+{
+    Model *m = b->model;
+    size_t corners = (size_t)group->corner_count;
+    int32_t *node = builder_alloc(b, (size_t)group->block_count * corners * LANES, sizeof *node);
+    if (!node) return -1;
+    for (int e = 0; e < group->block_count * LANES; e++) {
+        int record = lane_record(b, group, first, e);
+        for (size_t a = 0; a < corners; a++)
+            node[((size_t)(e / LANES) * corners + a) * LANES + (size_t)(e % LANES)] = b->records[record].node[a];
+        if (e < group->element_count && record < b->shell_count) m->element_slot[record] = group->first_element + e;
+    }
     group->node = node;
-    group->geometry = geometry;
+    int status = fill_geometry(b, group, first, GEOMETRY_REFERENCE, &group->geometry);
+    if (status >= 0 && group->has_reference && group->birth > 0.0) {
+        int mesh = fill_geometry(b, group, first, GEOMETRY_MESH, &group->mesh_geometry);
+        status = mesh < 0 ? mesh : status | mesh;
+    }
+    if (!status && group->has_reference) status = fill_start(b, group);
+    if (status >= 0 && group->has_reference && group->rule.restore != RESTORE_NEVER) {
+        int tension = fill_geometry(b, group, first, GEOMETRY_TENSION, &group->tension_geometry);
+        status = tension < 0 ? tension : status | tension;
+    }
     return status;
 }
 
@@ -168,6 +230,22 @@ int build_groups(Builder *b)
     return status || build_rows(b) ? -1 : 0;
 }
 
+/* The largest squared frequency of an element: before and after the birth of its reference geometry. */
+static double scaling_rate(const Builder *b, int record)
+{
+    const ShellRecord *r = &b->records[record];
+    double largest = 0.0, x[12];
+    if (!(r->mass > 0.0)) return 0.0;
+    for (Geometry which = GEOMETRY_MESH; which <= GEOMETRY_REFERENCE; which++) {
+        if (which == GEOMETRY_MESH && r->reference > 0 && b->references[record].birth <= 0.0) continue;
+        ElementInput input = record_input(b, record, b->x, which, x);
+        double rate = geometry_rate(&input);
+        largest = rate > largest ? rate : largest;
+        if (r->reference == 0) break;
+    }
+    return largest;
+}
+
 /* DT2MS: mass is added to elements whose step is below the target (negative), or every element gets it (positive). */
 int build_mass_scaling(Builder *b)
 {
@@ -177,9 +255,7 @@ int build_mass_scaling(Builder *b)
     for (int i = 0; i < b->record_count; i++) {
         ShellRecord *r = &b->records[i];
         if (r->law == LAW_SURFACE) continue;
-        double x[12];
-        ElementInput input = record_input(b, r, b->x, x);
-        double rate = r->mass > 0.0 ? geometry_rate(&input) : 0.0, step = rate > 0.0 ? 2.0 / sqrt(rate) : 0.0;
+        double rate = scaling_rate(b, i), step = rate > 0.0 ? 2.0 / sqrt(rate) : 0.0;
         if (!(step > 0.0) || (wish < 0.0 && step >= target)) continue;
         double factor = (target / step) * (target / step), added = (factor - 1.0) * r->mass;
         before += r->mass;

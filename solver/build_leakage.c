@@ -174,8 +174,8 @@ int airbag_leakage(Builder *b, const AirbagDefinition *d, Airbag *bag)
     return status;
 }
 
-/* Area of the bag's part at a place, at given positions. */
-static double area_at(const Builder *b, int airbag, const Airbag *bag, int place, const double *x)
+/* Area of the bag's part at a place, at the start or in the reference geometry as far as it has one. */
+static double area_at(const Builder *b, int airbag, const Airbag *bag, int place, bool of_reference)
 {
     double sum = 0.0, corner[12];
     for (int i = 0; i < b->record_count; i++) {
@@ -184,7 +184,12 @@ static double area_at(const Builder *b, int airbag, const Airbag *bag, int place
         bool on = place >= bag->surface_parts;
         for (int s = 0; !on && s < r->source_count; s++) on = r->source[s] == airbag;
         if (!on) continue;
-        for (int a = 0; a < r->corner_count; a++) memcpy(corner + 3 * a, x + 3 * (ptrdiff_t)r->node[a], 3 * sizeof *x);
+        if (of_reference && r->reference > 0) {
+            sum += geometry_area(r->corner_count, b->references[i].x);
+            continue;
+        }
+        for (int a = 0; a < r->corner_count; a++)
+            memcpy(corner + 3 * a, b->model->initial + 3 * (ptrdiff_t)r->node[a], 3 * sizeof *corner);
         sum += geometry_area(r->corner_count, corner);
     }
     return sum;
@@ -247,10 +252,10 @@ int build_areas(Builder *b)
         m->bag_part_count += bag->part_count;
         for (int k = 0; k < bag->gas.leak_count; k++) {
             GasLeak *leak = &bag->gas.leaks[k];
-            leak->initial_area = area_at(b, i, bag, leak->place, leak->of_reference ? m->reference : m->initial);
+            leak->initial_area = area_at(b, i, bag, leak->place, leak->of_reference);
         }
         for (int k = 0; k < bag->gas.hole_count; k++)
-            bag->gas.holes[k].initial_area = area_at(b, i, bag, bag->gas.holes[k].place, m->initial);
+            bag->gas.holes[k].initial_area = area_at(b, i, bag, bag->gas.holes[k].place, false);
     }
     for (int i = 0; i < m->connection_count; i++) m->blockage |= m->connections[i].blocked;
     return place_groups(b);

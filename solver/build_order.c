@@ -124,7 +124,7 @@ static int compare_node_keys(const void *left, const void *right)
 }
 
 typedef struct ElementKey {
-    int surface, part, kind, set; /* group; laws with stress first */
+    int surface, part, kind, set, reference; /* group; laws with stress first */
     int32_t position, record;
 } ElementKey;
 
@@ -135,6 +135,7 @@ static int compare_element_keys(const void *left, const void *right)
     if (a->part != b->part) return a->part - b->part;
     if (a->kind != b->kind) return a->kind - b->kind;
     if (a->set != b->set) return a->set - b->set;
+    if (a->reference != b->reference) return a->reference - b->reference;
     if (a->position != b->position) return (a->position > b->position) - (a->position < b->position);
     return (a->record > b->record) - (a->record < b->record);
 }
@@ -151,7 +152,7 @@ static int order_elements(Builder *b, const int32_t *position)
         const ShellRecord *r = &b->records[i];
         int32_t least = position[r->node[0]];
         for (int c = 1; c < r->corner_count; c++) least = position[r->node[c]] < least ? position[r->node[c]] : least;
-        keys[i] = (ElementKey){r->law == LAW_SURFACE, r->part, (int)r->kind, r->pressure_set, least, i};
+        keys[i] = (ElementKey){r->law == LAW_SURFACE, r->part, (int)r->kind, r->pressure_set, r->reference, least, i};
     }
     qsort(keys, (size_t)b->record_count, sizeof *keys, compare_element_keys);
     for (int i = 0; i < b->record_count; i++) b->order[i] = keys[i].record;
@@ -211,7 +212,6 @@ static int fill_nodes(Builder *b, const NodeKey *keys)
         if (keys[i].class == CLASS_FREE) m->free_count++;
         if (keys[i].class != CLASS_FIXED) m->moving_count++;
     }
-    m->reference = m->initial; /* the input geometry is the reference */
     return 0;
 }
 

@@ -49,11 +49,51 @@ static int fabric_axis(Builder *b, const MaterialDefinition *m, PartRecord *part
     return 0;
 }
 
+/* RGBRTH, LNRC and TSRFAC: what becomes of a reference geometry. */
+static int fabric_reference(Builder *b, const MaterialDefinition *m, bool first_use, PartRecord *part)
+{
+    const FabricCard *f = &m->fabric;
+    const bool has_liner = part->fabric.has_liner;
+    ReferenceRule *rule = &part->reference_rule;
+    part->has_reference = true;
+    part->reference_birth = f->rgbrth;
+    rule->curve = -1;
+    if (b->definitions->reference_blocks.count == 0) {
+        if (first_use && (f->lnrc != 0.0 || f->tsrfac != 0.0 || f->rgbrth != 0.0))
+            diagnostics_add(b->diagnostics, SEVERITY_NOTE, m->source, m->keyword,
+                            "LNRC = %g, TSRFAC = %g and RGBRTH = %g are not used: there is no reference geometry",
+                            f->lnrc, f->tsrfac, f->rgbrth);
+        return 0;
+    }
+    if (f->lnrc != 0.0 && f->lnrc != 1.0) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, m->keyword,
+                        "LNRC = %g is not read by billow " BILLOW_VERSION "; use 0 or 1", f->lnrc);
+        return -1;
+    }
+    if (f->lnrc == 1.0 && has_liner && f->cse != 1.0) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, m->keyword,
+                        "LNRC = 1 keeps a liner slack whose fabric carries compression (CSE = %g); use CSE = 1, or "
+                        "LNRC = 0",
+                        f->cse);
+        return -1;
+    }
+    rule->liner_waits = f->lnrc == 1.0 && has_liner;
+    if (f->tsrfac == 0.0) return 0;
+    rule->restore = f->tsrfac >= 1.0 ? RESTORE_BY_TIME : RESTORE_BY_CYCLE;
+    if (f->tsrfac > 0.0 && f->tsrfac < 1.0) {
+        rule->factor = f->tsrfac;
+        return 0;
+    }
+    rule->curve = deck_index_curve(&b->index, (int)fabs(f->tsrfac), "TSRFAC", m->source, m->keyword, b->diagnostics);
+    return rule->curve < 0 ? -1 : 0;
+}
+
 /* What all forms have in common. */
-static int fabric_finish(Builder *b, const MaterialDefinition *m, PartRecord *part)
+static int fabric_finish(Builder *b, const MaterialDefinition *m, bool first_use, PartRecord *part)
 {
     part->fabric.no_compression = m->fabric.cse == 1.0;
     part->fabric.damping = m->fabric.damp > 0.0 ? m->fabric.damp : 0.0;
+    if (fabric_reference(b, m, first_use, part)) return -1;
     return fabric_axis(b, m, part);
 }
 
@@ -101,7 +141,7 @@ static int fabric_law(Builder *b, const MaterialDefinition *m, bool first_use, P
     bool fail = fabric_moduli_fail(b, m, first_use, curves);
     if (curves && fabric_curve_law(b, m, first_use, part)) fail = true; /* all messages in one list */
     if (fail) return -1;
-    if (curves) return fabric_finish(b, m, part);
+    if (curves) return fabric_finish(b, m, first_use, part);
     double eb = f->eb > 0.0 ? f->eb : f->ea, prab = f->prab != 0.0 ? f->prab : f->prba * f->ea / eb;
     double gab = f->gab > 0.0 ? f->gab : 0.5 * f->ea / (1.0 + f->prba);
     double mismatch = fabs(f->prba * f->ea - prab * eb);
@@ -123,7 +163,7 @@ static int fabric_law(Builder *b, const MaterialDefinition *m, bool first_use, P
     law_set(&part->fabric, fabric, liner, f->lratio, has_liner);
     part->law = f->form == 0 || f->form == 1 ? LAW_BIOT : LAW_GREEN;
     part->fabric.free_fold = part->law == LAW_BIOT;
-    return fabric_finish(b, m, part);
+    return fabric_finish(b, m, first_use, part);
 }
 
 /* The compression cut-off of FORM 0 and 1 with a Poisson's ratio has no stored energy (docs/theory.md, Energy). */

@@ -22,7 +22,25 @@ typedef struct PartRecord {
     FibreAxis axis;
     double angle;                 /* BETA of the material and the section [rad] */
     double density, area_density; /* area_density: MAREA */
+    bool has_reference;           /* its elements may have a reference geometry */
+    double reference_birth;       /* RGBRTH, 0: the birth of the reference geometry's card */
+    ReferenceRule reference_rule; /* LNRC, TSRFAC */
 } PartRecord;
+
+/* Reference geometry of one shell. */
+typedef struct ShellReference {
+    bool given, rdt;
+    double birth;
+    double x[12]; /* corners (corner_count x 3), in the order of the shell's */
+    const char *keyword;
+    Source source;
+} ShellReference;
+
+/* Shells of one class share the time from which the reference acts and the rule of the step. */
+typedef struct ReferenceClass {
+    double birth;
+    bool rdt;
+} ReferenceClass;
 
 /* One shell, or one bare segment (part -1): node indices in deck order until build_renumber. */
 typedef struct ShellRecord {
@@ -38,6 +56,7 @@ typedef struct ShellRecord {
     int push[4];      /* 0: the facet bounds the source's volume, but does not feel its pressure */
     int pressure_set; /* -1 none */
     int orientation;  /* of the area vector relative to the stored winding */
+    int reference;    /* number of its ReferenceClass, from 1; 0: the mesh is its reference */
 } ShellRecord;
 
 typedef struct Builder {
@@ -54,7 +73,9 @@ typedef struct Builder {
     ShellRecord *records;
     PartRecord *parts;
     Motion motion;
-    unsigned char *wall_node; /* nodes named by each wall (wall count x node count), deck order */
+    unsigned char *wall_node;   /* nodes named by each wall (wall count x node count), deck order */
+    ShellReference *references; /* (shell_count); NULL without reference geometry */
+    LIST(ReferenceClass) reference_classes;
     SurfaceClosure *closures; /* (airbag count), nodes in deck order until build_renumber */
     int32_t *order;           /* element order: order[k] = record of the k-th element in group order */
 } Builder;
@@ -86,6 +107,7 @@ double beam_area(const SectionBeamDefinition *section);
 /* The stages, in order; 0, or -1 after reporting an error. Later stages need earlier ones to have succeeded. */
 int build_parts(Builder *builder);     /* materials, sections -> laws */
 int build_shells(Builder *builder);    /* shells -> records, masses */
+int build_reference(Builder *builder); /* reference geometries; masses by them; after build_shells */
 int build_links(Builder *builder);     /* beams, springs, cables -> links, masses of nodes; after build_shells */
 int build_link_ends(Builder *builder); /* which links share an end, and its mass; after build_renumber */
 int build_solids(Builder *builder);    /* solids -> masses of their nodes; after build_shells */

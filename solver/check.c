@@ -17,6 +17,7 @@ static void print_report(Accepted *accepted, const char *deck)
     printf("%s: %s\n", deck, model->title);
     report_write_keywords(&accepted->definitions, stdout);
     report_write_parts(model, stdout);
+    report_write_reference(model, stdout);
     report_write_airbags(model, &accepted->state, stdout);
     report_write_conditions(model, stdout);
     report_write_walls(model, stdout);

@@ -10,6 +10,7 @@
 
 #include "airbag/billow_sensor.h"
 #include "solver/billow.h"
+#include "solver/definitions_reference.h"
 #include "solver/diagnostics.h"
 #include "solver/function.h"
 
@@ -572,6 +573,9 @@ typedef struct Definitions {
     LIST(RigidMergeDefinition) merges;
     LIST(ExtraNodesDefinition) extra_nodes;
     LIST(NodalRigidBodyDefinition) nodal_bodies;
+    LIST(ReferenceBlockDefinition) reference_blocks;
+    LIST(ReferenceNodeDefinition) reference_nodes;
+    LIST(ReferenceShellDefinition) reference_shells;
 } Definitions;
 
 void definitions_free(Definitions *definitions);

@@ -34,8 +34,16 @@ typedef enum ElementKind {
     ELEMENT_QUAD_ONE,  /* 4-node, one point and hourglass control */
 } ElementKind;
 
-/* Elements of one part, kind, law and set of pressures, stored in blocks of BILLOW_LANES as structure of arrays.
- * The last block is filled up with lanes of weight 0 on the last element's nodes. */
+/* What becomes of a reference geometry: LNRC and TSRFAC of *MAT_FABRIC (docs/theory.md, Reference geometry). */
+typedef struct ReferenceRule {
+    bool liner_waits; /* no compression before the fabric is taut for the first time */
+    enum { RESTORE_NEVER, RESTORE_BY_CYCLE, RESTORE_BY_TIME } restore; /* of the initial tension */
+    double factor; /* of RESTORE_BY_CYCLE, unless curve >= 0 gives it */
+    int curve;     /* index into Model.curves, -1 none */
+} ReferenceRule;
+
+/* Elements of one part, kind, law, set of pressures and class of reference, stored in blocks of BILLOW_LANES as
+ * structure of arrays. The last block is filled up with lanes of weight 0 on the last element's nodes. */
 typedef struct ElementGroup {
     ElementKind kind;
     LawKind law; /* LAW_SURFACE: no stress, only volume and area vector (rigid, null, bare segments) */
@@ -53,6 +61,13 @@ typedef struct ElementGroup {
     size_t history_offset;  /* of block 0 in State.history [doubles] */
     FabricLaw material;     /* constants of the law */
     bool has_history;
+    /* Reference geometry; geometry holds its constants. Where the mesh is the reference, all this is zero. */
+    bool has_reference, rdt;
+    double birth;                   /* [T]; up to it the constants are those of mesh_geometry */
+    const double *mesh_geometry;    /* NULL if birth = 0 */
+    const double *tension_geometry; /* with the initial tension in it (TSRFAC); NULL if it never comes back */
+    const double *start_square;     /* smallest squared stretch of each element in the mesh (block_count x LANES) */
+    ReferenceRule rule;
 } ElementGroup;
 
 enum {
@@ -75,8 +90,10 @@ typedef struct Part {
     int material_kind; /* MaterialKind */
     int rigid_body;    /* index into Model.rigid_bodies, -1 if deformable */
     int element_count;
-    double mass; /* [M] */
-    double area; /* initial [L2] */
+    double mass;         /* [M] */
+    double area;         /* initial [L2] */
+    int reference_count; /* elements with a reference geometry: area and mass by it, and by the mesh */
+    double reference_area, reference_mass, referred_area, referred_mass;
     double density, thickness;
 } Part;
 
@@ -128,7 +145,6 @@ typedef struct Model {
     int *node_id;           /* user's ids (node_count) */
     int *deck_node;         /* internal index of the deck's i-th node (node_count) */
     double *initial;        /* initial position (node_count x 3) [L] */
-    double *reference;      /* reference position X (node_count x 3) [L] */
     double *velocity;       /* initial velocity (node_count x 3) [L/T]; NULL: at rest */
     double *mass;           /* lumped, mass scaling included (node_count) [M] */
     double *inverse_mass;   /* (node_count); 0 for massless nodes */
@@ -142,6 +158,8 @@ typedef struct Model {
     int64_t *element_slot;     /* padded element index: group g, block b, lane l -> g.first_element + b LANES + l */
     double *element_thickness; /* (element_count) [L] */
     double *element_mass;      /* (element_count) [M] */
+    bool has_reference;        /* some group has a reference geometry */
+    bool liner_waits;          /* of some group: State.reached is there */
 
     int solid_count;
     Solid *solids;

@@ -43,6 +43,16 @@ int relax_check(const Model *m, Diagnostics *diagnostics)
     for (int g = 0; g < m->group_count; g++) {
         const ElementGroup *group = &m->groups[g];
         const char *why = static_law_refusal(group->law, &group->material);
+        if (group->has_reference &&
+            (group->birth > 0.0 || group->rule.liner_waits || group->rule.restore != RESTORE_NEVER)) {
+            diagnostics_add(
+                diagnostics, SEVERITY_ERROR, m->relax.source, keyword,
+                "part %d has a reference geometry that changes in the run (birth, LNRC or TSRFAC): there is no "
+                "equilibrium before the run for it; let it act from the start, or take the phase out",
+                m->parts[group->part].id);
+            status = -1;
+            continue;
+        }
         if (!why || m->relax.kind != RELAX_STATIC) continue;
         diagnostics_add(diagnostics, SEVERITY_ERROR, m->relax.source, keyword, "part %d: %s; use IDRFLG = 1",
                         group->part >= 0 ? m->parts[group->part].id : 0, why);

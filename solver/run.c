@@ -9,6 +9,7 @@
 #include "io/checkpoint.h"
 #include "io/folder.h"
 #include "io/log.h"
+#include "io/reference_file.h"
 #include "io/results.h"
 #include "io/summary.h"
 #include "solver/accept.h"
@@ -89,8 +90,9 @@ static int open_outputs(Run *run)
     if (log_open(&run->log, run->directory, run->append, run->options->deck, diagnostics)) return -1;
     log_write_deck(&run->log, &run->deck.definitions, model, &run->deck.state, &run->recorder.plan, run->threads,
                    run->processors);
+    const int unwritten = reference_file_write(run->directory, &run->deck.definitions, diagnostics);
     definitions_free(&run->deck.definitions);
-    return results_open(run->directory, model, run->append, time, &run->results, diagnostics);
+    return unwritten ? -1 : results_open(run->directory, model, run->append, time, &run->results, diagnostics);
 }
 
 static void print_start(const Run *run)

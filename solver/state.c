@@ -6,6 +6,7 @@
 
 #include "elements/kernels.h"
 #include "solver/memory.h"
+#include "solver/reference_work.h"
 #include "solver/step_links.h"
 
 /* Hands out aligned pieces of the buffer; with a NULL base it only counts. */
@@ -42,6 +43,9 @@ static size_t lay_out(const Model *model, State *state)
     state->jet = take(base, &used, (size_t)model->jet_count * sizeof *state->jet);
     state->jet_shape = take(base, &used, (size_t)model->jet_facet_count * sizeof *state->jet_shape);
     state->jet_weight = take(base, &used, (size_t)model->jet_row_count * sizeof *state->jet_weight);
+    state->reference =
+        take(base, &used, (model->has_reference ? (size_t)model->group_count : 0) * sizeof *state->reference);
+    state->reached = take(base, &used, model->liner_waits ? (size_t)model->padded_count : 0);
     return (used + 63) / 64 * 64;
 }
 
@@ -56,15 +60,28 @@ void state_bind(const Model *model, State *state)
     lay_out(model, state);
 }
 
+/* References that act from the start, and the elements that are taut in them. */
+static void start_references(const Model *model, State *state)
+{
+    for (int g = 0; model->has_reference && g < model->group_count; g++) {
+        const ElementGroup *group = &model->groups[g];
+        state->reference[g] = (ReferenceState){group->birth <= 0.0, 1.0, 1.0};
+        for (int64_t e = 0; group->rule.liner_waits && state->reference[g].born && e < group->element_count; e++)
+            state->reached[group->first_element + e] =
+                reference_is_taut(group, group->geometry + lane_offset(group, e), state->x, e);
+    }
+}
+
 /* Volume and area of every bag at the initial positions, with the very kernels of the step. */
 static int initial_volumes(const Model *model, State *state, double *volume, double *area)
 {
     const KernelTable *kernels = kernels_select(NULL);
-    if (!kernels) return -1;
+    ReferenceWork reference;
+    if (!kernels || reference_work_create(model, state, &reference)) return -1;
     for (int i = 0; i < model->airbag_count; i++)
         volume[i] = state->cap_volume[i] = surface_cap_volume(&model->airbags[i].closure, state->x, model->origin);
     for (int g = 0; g < model->group_count; g++) {
-        const ElementGroup *group = &model->groups[g];
+        const ElementGroup *group = &reference.groups[g];
         ChunkSums sums = {0};
         KernelInput input = {.group = group,
                              .end_block = group->block_count,
@@ -76,7 +93,12 @@ static int initial_volumes(const Model *model, State *state, double *volume, dou
         if (law_stores_energy(group->law, &group->material)) {
             state->group_energy[g] = sums.energy;
             state->part_energy[group->part] += sums.energy;
+        } else if (group->has_reference) {
+            for (int64_t e = 0; e < group->element_count; e++)
+                state->part_energy[group->part] +=
+                    reference_energy(group, group->geometry + lane_offset(group, e), state->x, e);
         }
+        if (group->has_reference) state->part_hourglass[group->part] += sums.hourglass;
         if (group->pressure_set < 0) continue;
         const PressureSet *set = &model->pressure_sets[group->pressure_set];
         for (int s = 0; s < set->count; s++) {
@@ -85,6 +107,7 @@ static int initial_volumes(const Model *model, State *state, double *volume, dou
             area[set->source[s]] += sums.area;
         }
     }
+    reference_work_free(model, &reference);
     return 0;
 }
 
@@ -132,8 +155,11 @@ static void start_energies(const Model *model, State *state)
     }
     for (int w = 0; w < model->wall_count; w++)
         e->kinetic += 0.5 * model->walls[w].mass * model->walls[w].speed * model->walls[w].speed;
-    for (int p = 0; p < model->part_count; p++) e->internal += state->part_energy[p];
-    e->initial = e->kinetic + e->internal;
+    for (int p = 0; p < model->part_count; p++) {
+        e->internal += state->part_energy[p];
+        e->hourglass += state->part_hourglass[p];
+    }
+    e->initial = e->kinetic + e->internal + e->hourglass;
     e->largest = fabs(e->initial);
     e->ratio = e->ratio_min = e->ratio_max = 1.0;
 }
@@ -141,7 +167,7 @@ static void start_energies(const Model *model, State *state)
 void state_start_energies(const Model *model, const double *stored, State *state)
 {
     for (int g = 0; g < model->group_count; g++) /* what the kernels have counted is there already */
-        if (model->groups[g].part >= 0 && state->group_energy[g] == 0.0)
+        if (model->groups[g].part >= 0 && state->group_energy[g] == 0.0 && !model->groups[g].has_reference)
             state->part_energy[model->groups[g].part] += stored[g];
     *state->energy = (Energies){0};
     start_energies(model, state);
@@ -154,6 +180,7 @@ int state_start_at(const Model *model, const double *x, State *state)
     if (model->velocity) memcpy(state->v, model->velocity, 3 * (size_t)model->node_count * sizeof *state->v);
     for (int i = 0; i < model->rigid_body_count; i++) rigid_body_start(&model->rigid_bodies[i], &state->rigid[i]);
     for (int i = 0; i < model->wall_count; i++) state->wall[i].speed = model->walls[i].speed;
+    start_references(model, state);
     if (start_gas(model, state)) {
         state_free(state);
         return -1;

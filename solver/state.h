@@ -36,6 +36,13 @@ typedef struct Clock {
     int64_t states_written;
 } Clock;
 
+/* What holds of a group's reference geometry; written by step_reference_advance. */
+typedef struct ReferenceState {
+    int64_t born;   /* 1: it acts */
+    double share;   /* of the initial stretch that is left out of the strain (TSRFAC), 1 at the start */
+    double applied; /* the same in the steps in which the constants follow */
+} ReferenceState;
+
 typedef struct State {
     unsigned char *buffer; /* owns everything below */
     size_t size;           /* bytes */
@@ -47,21 +54,24 @@ typedef struct State {
     GasState *gas;       /* (airbag_count), airbag/gas.h */
     double *part_energy; /* internal energy of each part by the stress-work ledger (part_count) */
     double *part_hourglass;
-    double *group_energy;     /* energy stored in each group at the last cycle (group_count) */
-    double *cap_volume;       /* under the caps of each bag at the last cycle (airbag_count) [L3] */
-    double *part_area;        /* current areas of the bags' parts (bag_part_count) [L2], written by step_bags */
-    double *part_blocked;     /* of it, what contact covers (bag_part_count) [L2] */
-    double *contact_share;    /* share of each element's nodes that are in contact, 0 to 1 (element_count if
-                                 Model.blockage, else none); written by the contact stage, zero without contact */
-    RigidState *rigid;        /* (rigid_body_count), solver/rigid_body.h */
-    double *link_energy;      /* stored in each link at the last cycle (link_count), written by links_act */
-    WallState *wall;          /* (wall_count), contact/rigid_wall.h */
-    unsigned char *wall_side; /* WALL_SIDE_... of each node (wall_count x moving_count), written by step_walls */
-    SensorState *sensor;      /* (sensor_count), airbag/sensor.h */
-    JetState *jet;            /* (jet_count), airbag/jet.h */
-    double *jet_shape;        /* (jet_facet_count): > 0 the jet's pressure is strength times it, 0 out of its reach,
-                                 -1 hidden; as of the last look */
-    JetWeight *jet_weight;    /* (jet_row_count), written with jet_shape */
+    double *group_energy;      /* energy stored in each group at the last cycle (group_count) */
+    double *cap_volume;        /* under the caps of each bag at the last cycle (airbag_count) [L3] */
+    double *part_area;         /* current areas of the bags' parts (bag_part_count) [L2], written by step_bags */
+    double *part_blocked;      /* of it, what contact covers (bag_part_count) [L2] */
+    double *contact_share;     /* share of each element's nodes that are in contact, 0 to 1 (element_count if
+                                  Model.blockage, else none); written by the contact stage, zero without contact */
+    RigidState *rigid;         /* (rigid_body_count), solver/rigid_body.h */
+    double *link_energy;       /* stored in each link at the last cycle (link_count), written by links_act */
+    WallState *wall;           /* (wall_count), contact/rigid_wall.h */
+    unsigned char *wall_side;  /* WALL_SIDE_... of each node (wall_count x moving_count), written by step_walls */
+    SensorState *sensor;       /* (sensor_count), airbag/sensor.h */
+    JetState *jet;             /* (jet_count), airbag/jet.h */
+    double *jet_shape;         /* (jet_facet_count): > 0 the jet's pressure is strength times it, 0 out of its reach,
+                                  -1 hidden; as of the last look */
+    JetWeight *jet_weight;     /* (jet_row_count), written with jet_shape */
+    ReferenceState *reference; /* (group_count if Model.has_reference, else none) */
+    unsigned char *reached;    /* 1: the element has been taut, its liner acts (padded_count if Model.liner_waits, else
+                                  none); written by the element stage */
 } State;
 
 /* Bytes that a State of this model needs. */

@@ -35,9 +35,10 @@ void step_fail(Workspace *w, const char *advice, const char *format, ...)
 }
 
 /* One chunk: blocks of one group. */
-static void run_chunk(Workspace *w, const ElementGroup *group, int chunk)
+static void run_chunk(Workspace *w, int number, int chunk)
 {
     const Model *m = w->model;
+    const ElementGroup *group = &w->reference.groups[number];
     int block = (chunk - group->first_chunk) * BILLOW_CHUNK, last = block + BILLOW_CHUNK;
     double step = w->state->clock->step;
     KernelInput input = {.group = group,
@@ -51,13 +52,14 @@ static void run_chunk(Workspace *w, const ElementGroup *group, int chunk)
                          .restart_ledger = w->state->clock->cycle == 0};
     w->chunks[chunk] = (ChunkSums){0};
     kernels_for(w->kernels, group)(&input, &w->chunks[chunk]);
+    if (group->has_reference) step_reference_chunk(w, number, chunk, &input, &w->chunks[chunk]);
 }
 
-static const ElementGroup *group_of_chunk(const Model *m, int chunk)
+static int group_of_chunk(const Model *m, int chunk)
 {
     int g = 0;
     while (g + 1 < m->group_count && m->groups[g + 1].first_chunk <= chunk) g++;
-    return &m->groups[g];
+    return g;
 }
 
 int step_segment_owner(const Model *m, int segment, int64_t *before, int threads)
@@ -75,7 +77,7 @@ void step_elements(Workspace *w, int thread, int threads)
     for (int i = 0; i < m->segment_count; i++) {
         int s = m->segment_order[i], first = m->segment_chunk[s], end = m->segment_chunk[s + 1];
         if (step_segment_owner(m, s, &before, threads) != thread) continue;
-        const ElementGroup *group = group_of_chunk(m, first);
+        const int group = group_of_chunk(m, first);
         memset(w->rows + ROW_SIZE * (ptrdiff_t)m->row_start[s], 0,
                ROW_SIZE * (size_t)(m->row_start[s + 1] - m->row_start[s]) * sizeof *w->rows);
         for (int c = first; c < end; c++) run_chunk(w, group, c);
@@ -120,6 +122,8 @@ static int allocate(Workspace *w)
     w->special_kind = memory_alloc(special + 1, 1);
     w->drag = memory_alloc(3 * special + 1, sizeof(double));
     w->newton = memory_alloc(3 * special + 1, sizeof(double));
+    if (reference_work_create(m, w->state, &w->reference)) return -1;
+    w->reference_jump = memory_alloc(m->has_reference ? (size_t)m->chunk_count + 1 : 1, sizeof(double));
     w->gas_pass = memory_alloc(((size_t)w->node_chunk_count + 1) * bags, sizeof *w->gas_pass);
     size_t walls = (size_t)m->wall_count;
     w->walls = memory_alloc(walls + 1, sizeof *w->walls);
@@ -132,7 +136,7 @@ static int allocate(Workspace *w)
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
                       w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
-                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume};
+                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume,    w->reference_jump};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
     return step_functions_allocate(w) || step_jets_allocate(w) ? -1 : 0;
@@ -147,8 +151,9 @@ static void release(Workspace *w)
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
                       w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
-                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume};
+                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume,    w->reference_jump};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
+    reference_work_free(w->model, &w->reference);
     step_functions_release(w);
     step_jets_release(w);
 }

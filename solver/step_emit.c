@@ -43,7 +43,7 @@ static int find_critical(Workspace *w)
 {
     const Model *m = w->model;
     if (m->deformable_count == 0) return -1;
-    const ElementGroup *group = &m->groups[w->critical_group];
+    const ElementGroup *group = &w->reference.groups[w->critical_group];
     int first = (w->critical_chunk - group->first_chunk) * BILLOW_CHUNK, end = first + BILLOW_CHUNK;
     if (end > group->block_count) end = group->block_count;
     size_t per_block = (size_t)group->history_size * BILLOW_LANES, size = (size_t)(end - first) * per_block;
@@ -59,6 +59,8 @@ static int find_critical(Workspace *w)
     ChunkSums sums = {0};
     kernels_for(w->kernels, group)(&input, &sums);
     memcpy(history, w->kept_history, size * sizeof *history);
+    if (group->has_reference && w->state->reference[w->critical_group].born)
+        reference_rate(group, group->geometry, first, end, w->state->x, w->lane_rate);
     int critical = -1;
     double largest = 0.0;
     int64_t from = group->first_element + (int64_t)first * BILLOW_LANES,

@@ -43,6 +43,8 @@ static double sum_chunks(Workspace *w)
         } else {
             double change = sum.energy - state->group_energy[g];
             state->part_energy[group->part] += change;
+            for (int c = 0; group->has_reference && c < chunks; c++)
+                change -= w->reference_jump[group->first_chunk + c];
             if (group->has_history && state->clock->cycle > 0) stored_change += sum.viscous - change;
             state->group_energy[g] = sum.energy;
         }
@@ -53,6 +55,7 @@ static double sum_chunks(Workspace *w)
         rate = effective > rate || effective != effective ? effective : rate;
     }
     state->energy->material_damping += stored_change;
+    if (m->has_reference) state->energy->external_half += step_reference_advance(w);
     return rate;
 }
 

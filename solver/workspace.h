@@ -8,6 +8,7 @@
 #include "airbag/ray_tree.h"
 #include "elements/kernels.h"
 #include "solver/model.h"
+#include "solver/reference_work.h"
 #include "solver/state.h"
 #include "solver/step.h"
 #include "solver/team.h"
@@ -141,7 +142,9 @@ typedef struct Workspace {
     JetSums *jet_sums; /* (jet_chunk_count) */
     const JetKernels *jet_kernels;
     int jet_chunk_count;
-    double *jet_area;       /* area of the facets of each row while looking (jet_row_count) */
+    double *jet_area;        /* area of the facets of each row while looking (jet_row_count) */
+    ReferenceWork reference; /* groups with the constants that hold now */
+    double *reference_jump; /* energy that a change of the reference brings in this cycle (chunk_count); NULL without */
     const Curve *curves;    /* the model's, or live_curves if the model has functions */
     Curve *live_curves;     /* the model's with the functions' values */
     double *function_value; /* (airbag_count x function_count) */
@@ -195,6 +198,10 @@ void step_jets_count(Workspace *w, int thread, Team *team); /* all threads: powe
 void step_jets_sum(Workspace *w);                           /* thread 0: the jets' forces */
 void step_jets_react(Workspace *w, NodeSums *t);            /* thread 0: reactions onto w->force */
 void step_jets_count_reaction(Workspace *w, NodeSums *t);   /* thread 0: power after the step */
+/* All threads: one chunk of a group with a reference geometry, after the kernel: step, birth, return of tension. */
+void step_reference_chunk(Workspace *w, int number, int chunk, const KernelInput *input, ChunkSums *sums);
+double step_reference_advance(
+    Workspace *w); /* thread 0: the states move on; energy that this cycle's changes brought */
 void step_fail(Workspace *w, const char *advice, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 #endif

@@ -103,7 +103,6 @@ static inline void small_create(SmallModel *small)
                            .node_id = small->node_id,
                            .deck_node = small->deck_node,
                            .initial = small->initial,
-                           .reference = small->initial,
                            .mass = small->mass,
                            .element_count = SMALL_ELEMENTS,
                            .deformable_count = 2,

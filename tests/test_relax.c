@@ -67,7 +67,7 @@ static double middle_stress(const Relaxed *r)
             if (r->mesh.shell[e][a] != middle) continue;
             ElementResult result;
             double principal[2];
-            membrane_result(&r->run.model, r->run.state.x, NULL, e, &result);
+            membrane_result(&r->run.model, &r->run.state, r->run.state.x, e, &result);
             verify_principal(result.stress, principal);
             sum += 0.5 * (principal[0] + principal[1]);
             count++;

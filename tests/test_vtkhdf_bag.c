@@ -82,7 +82,7 @@ static void test_cells_of_a_bag(void **unused)
     double largest = 0;
     for (int e = 0; e < bag.model.element_count; e++) {
         ElementResult result;
-        membrane_result(&bag.model, bag.x, bag.state.history, e, &result);
+        membrane_result(&bag.model, &bag.state, bag.x, e, &result);
         for (int c = 0; c < 6; c++) {
             assert_true(stress[6 * e + c] == (double)(float)result.stress[c]);
             assert_true(strain[6 * e + c] == (double)(float)result.strain[c]);

@@ -197,7 +197,7 @@ double verify_mean(const VerifyRun *run, double from, double to, size_t offset)
 ElementResult verify_element(const VerifyRun *run, int element)
 {
     ElementResult result;
-    membrane_result(&run->model, run->internal_x, run->state.history, element, &result);
+    membrane_result(&run->model, &run->state, run->internal_x, element, &result);
     return result;
 }
 

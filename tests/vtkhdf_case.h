@@ -148,7 +148,7 @@ static inline void check_states(const double *times, int count)
         for (int e = 0; e < SMALL_ELEMENTS; e++) {
             ElementResult result;
             int at = SMALL_ELEMENTS * s + e;
-            membrane_result(&small.model, small.x, NULL, e, &result);
+            membrane_result(&small.model, &small.state, small.x, e, &result);
             for (int c = 0; c < 6; c++) {
                 assert_true(stress[6 * at + c] == (double)(float)result.stress[c]);
                 assert_true(strain[6 * at + c] == (double)(float)result.strain[c]);

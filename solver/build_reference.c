@@ -1,0 +1,353 @@
+/* Reference geometries of the shells: which corners, from when on, with which step; and the mass that follows. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "solver/builder.h"
+#include "solver/memory.h"
+#include "solver/reference_table.h"
+
+enum { LISTED = 200 }; /* messages of one kind: the first ones tell what is wrong */
+
+static const char NODES[] = "*AIRBAG_REFERENCE_GEOMETRY", SHELLS[] = "*AIRBAG_SHELL_REFERENCE_GEOMETRY";
+
+/* What is being built. */
+typedef struct ReferenceBuild {
+    Builder *b;
+    ReferenceTable table;
+    double birth;   /* of all blocks with BIRTH: the last one read */
+    int32_t *stand; /* for which node of the mesh a panel's node stands, by majority, -1 none (node_count) */
+    int32_t *votes; /* (node_count) */
+    int32_t *uses;  /* shells at a panel's node (node_count) */
+} ReferenceBuild;
+
+static void report(Builder *b, Source source, const char *keyword, int *listed, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+
+static void report(Builder *b, Source source, const char *keyword, int *listed, const char *format, ...)
+{
+    if (++*listed > LISTED) return;
+    char text[400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    diagnostics_add(b->diagnostics, SEVERITY_ERROR, source, keyword, "%s", text);
+}
+
+/* Nodes that the deck does not define, origins too; nodes that are placed twice. */
+static int check_nodes(ReferenceBuild *r)
+{
+    const Definitions *d = r->b->definitions;
+    const ReferenceTable *table = &r->table;
+    int missing = 0, twice = 0;
+    for (size_t i = 0; i < d->reference_nodes.count; i++) {
+        const ReferenceNodeDefinition *record = &d->reference_nodes.items[i];
+        int32_t node = id_map_find(&table->nodes, record->id);
+        if (node < 0) {
+            report(r->b, record->source, NODES, &missing,
+                   "node NID = %d is not defined under *NODE; add it there or remove the line", record->id);
+            continue;
+        }
+        int32_t last = table->record[node];
+        if (last == (int32_t)i || memcmp(table->x + 3 * i, table->x + 3 * (ptrdiff_t)last, 3 * sizeof(double)) == 0)
+            continue;
+        if (twice++ == 0)
+            diagnostics_add(r->b->diagnostics, SEVERITY_WARNING, record->source, NODES,
+                            "node NID = %d is placed again in another place, which counts (line %d)", record->id,
+                            d->reference_nodes.items[last].source.line);
+    }
+    for (size_t i = 0; i < d->reference_blocks.count; i++) {
+        const ReferenceBlockDefinition *block = &d->reference_blocks.items[i];
+        int id;
+        if (block->nid == 0 || reference_table_origin(table, block, &id) >= 0) continue;
+        report(r->b, block->id_source, block->is_shell ? SHELLS : NODES, &missing,
+               "the origin %s = %d of the scale factors is not defined under *NODE", block->is_shell ? "NID" : "NIDO",
+               block->nid);
+    }
+    return missing ? -1 : 0;
+}
+
+/* The birth of a shell: RGBRTH goes before the card's. */
+static double shell_birth(const Builder *b, int shell, double birth)
+{
+    const PartRecord *part = &b->parts[b->records[shell].part];
+    return part->reference_birth != 0.0 ? part->reference_birth : birth;
+}
+
+/* Shells with a corner in a block of nodes. */
+static void take_nodes(ReferenceBuild *r)
+{
+    Builder *b = r->b;
+    const Definitions *d = b->definitions;
+    for (int i = 0; i < b->shell_count; i++) {
+        const ShellRecord *record = &b->records[i];
+        ShellReference *reference = &b->references[i];
+        double birth = 0.0;
+        for (int a = 0; a < record->corner_count; a++) {
+            int32_t found = r->table.record[record->node[a]];
+            reference_table_node(&r->table, record->node[a], reference->x + 3 * a);
+            if (found < 0) continue;
+            const ReferenceBlockDefinition *block = &d->reference_blocks.items[r->table.block[found]];
+            if (!reference->given) reference->source = d->reference_nodes.items[found].source;
+            reference->given = true;
+            reference->rdt |= block->rdt;
+            if (block->has_birth && r->birth > birth) birth = r->birth;
+        }
+        reference->keyword = NODES;
+        reference->birth = shell_birth(b, i, birth);
+    }
+}
+
+/* Drops corners that repeat their neighbour, as *ELEMENT_SHELL does; returns how many are left. */
+static int distinct_corners(const int node[4], int corner[4])
+{
+    int count = node[3] == 0 ? 3 : 4;
+    memcpy(corner, node, 4 * sizeof *corner);
+    for (int i = 0; i < count; i++) {
+        if (count < 3 || corner[i] != corner[(i + 1) % count]) continue;
+        const int drop = i + 1 < count ? i + 1 : i;
+        for (int j = drop; j + 1 < count; j++) corner[j] = corner[j + 1];
+        count--;
+        i--;
+    }
+    return count;
+}
+
+/* One shell of a table of panels; its corners' nodes into corner. Returns the shell's record, or -1 after an error. */
+static int match_shell(ReferenceBuild *r, const ReferenceShellDefinition *card, int32_t corner[4], int *listed)
+{
+    Builder *b = r->b;
+    int shell = id_map_find(&b->index.shells, card->id), id[4];
+    if (shell < 0 || shell >= b->shell_count) {
+        report(b, card->source, SHELLS, listed,
+               "element EID = %d is not defined under *ELEMENT_SHELL; correct EID or remove the line", card->id);
+        return -1;
+    }
+    int count = distinct_corners(card->node, id), corners = b->records[shell].corner_count;
+    if (count != corners) {
+        report(b, card->source, SHELLS, listed,
+               "element %d has %d different corners here, but %d under *ELEMENT_SHELL; both must have the same",
+               card->id, count, corners);
+        return -1;
+    }
+    for (int a = 0; a < count; a++) {
+        corner[a] = id_map_find(&b->index.nodes, id[a]);
+        if (corner[a] >= 0) continue;
+        report(b, card->source, SHELLS, listed, "element %d names node %d, which is not defined under *NODE", card->id,
+               id[a]);
+        return -1;
+    }
+    return shell;
+}
+
+/* Which node of the mesh each panel's node stands for: Boyer and Moore's majority over the shells. */
+static void vote(ReferenceBuild *r, const ShellRecord *record, const int32_t corner[4])
+{
+    for (int a = 0; a < record->corner_count; a++) {
+        int32_t *votes = &r->votes[corner[a]], *stand = &r->stand[corner[a]];
+        if (*votes == 0) *stand = record->node[a];
+        *votes += *stand == record->node[a] ? 1 : -1;
+        r->uses[corner[a]]++;
+    }
+}
+
+/* Corners at which the neighbours agree when the shell's are taken from first on, forwards or backwards. */
+static int agreeing(const ReferenceBuild *r, const ShellRecord *record, const int32_t corner[4], int first, int step)
+{
+    int n = record->corner_count, count = 0;
+    for (int a = 0; a < n; a++) {
+        int32_t node = corner[(first + a * step + 8 * n) % n];
+        count += r->uses[node] > 1 && r->stand[node] == record->node[a];
+    }
+    return count;
+}
+
+/* Whether another order of the corners fits the neighbours better than the given one. */
+static bool is_disordered(const ReferenceBuild *r, const ShellRecord *record, const int32_t corner[4])
+{
+    int n = record->corner_count, given = agreeing(r, record, corner, 0, 1);
+    for (int first = 0; first < n; first++)
+        for (int step = -1; step <= 1; step += 2)
+            if (agreeing(r, record, corner, first, step) > given) return true;
+    return false;
+}
+
+static int take_block(ReferenceBuild *r, const ReferenceBlockDefinition *block, bool voting, int *listed)
+{
+    Builder *b = r->b;
+    const Definitions *d = b->definitions;
+    int status = 0;
+    for (size_t i = block->first; i < block->first + block->count; i++) {
+        const ReferenceShellDefinition *card = &d->reference_shells.items[i];
+        int32_t corner[4];
+        int unlisted = LISTED, shell = match_shell(r, card, corner, voting ? listed : &unlisted);
+        if (shell < 0) {
+            status = -1;
+            continue;
+        }
+        const ShellRecord *record = &b->records[shell];
+        ShellReference *reference = &b->references[shell];
+        if (voting) {
+            vote(r, record, corner);
+            continue;
+        }
+        if (is_disordered(r, record, corner)) {
+            report(b, card->source, SHELLS, listed,
+                   "element %d: N1 to N4 are in another order than under *ELEMENT_SHELL, as its neighbours show; the "
+                   "order and winding must be the same",
+                   card->id);
+            status = -1;
+        }
+        for (int a = 0; a < record->corner_count; a++) {
+            reference_table_node(&r->table, corner[a], reference->x + 3 * a);
+            reference_table_scale(&r->table, block, reference->x + 3 * a);
+        }
+        reference->given = true;
+        reference->rdt = block->rdt;
+        reference->keyword = SHELLS;
+        reference->source = card->source;
+        reference->birth = shell_birth(b, shell, 0.0);
+    }
+    return status;
+}
+
+/* A part of which only some shells are in a table of panels: an element was forgotten. */
+static int check_coverage(ReferenceBuild *r, int *listed)
+{
+    Builder *b = r->b;
+    int status = 0;
+    for (int p = 0; p < b->model->part_count; p++) {
+        const ShellReference *first = NULL;
+        int missing = -1, without = 0, with = 0;
+        for (int32_t k = b->index.part_shell_start[p]; k < b->index.part_shell_start[p + 1]; k++) {
+            const ShellReference *reference = &b->references[b->index.part_shell[k]];
+            bool panel = reference->given && reference->keyword == SHELLS;
+            if (panel && !first) first = reference;
+            if (!reference->given && missing < 0) missing = b->index.part_shell[k];
+            without += !reference->given;
+            with += panel;
+        }
+        if (!first || missing < 0) continue;
+        report(
+            b, first->source, SHELLS, listed,
+            "part %d has %d elements here, but %d of its elements have no reference, the first is %d; add them, with "
+            "their own nodes where they keep their place",
+            b->model->parts[p].id, with, without, b->definitions->shells.items[missing].id);
+        status = -1;
+    }
+    return status;
+}
+
+static int take_shells(ReferenceBuild *r)
+{
+    Builder *b = r->b;
+    const Definitions *d = b->definitions;
+    if (d->reference_shells.count == 0) return 0;
+    size_t nodes = (size_t)b->node_count + 1;
+    r->stand = memory_alloc(nodes, sizeof *r->stand);
+    r->votes = memory_alloc(nodes, sizeof *r->votes);
+    r->uses = memory_alloc(nodes, sizeof *r->uses);
+    if (!r->stand || !r->votes || !r->uses) return -1;
+    int status = 0, listed = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < d->reference_blocks.count; i++)
+            if (d->reference_blocks.items[i].is_shell &&
+                take_block(r, &d->reference_blocks.items[i], pass == 0, &listed))
+                status = -1;
+    if (!status && check_coverage(r, &listed)) status = -1;
+    return status;
+}
+
+/* References of parts whose material has none: said once a part, then left out. */
+static void drop_unused(Builder *b)
+{
+    for (int p = 0; p < b->model->part_count; p++) {
+        int32_t start = b->index.part_shell_start[p], end = b->index.part_shell_start[p + 1];
+        bool said = b->parts[p].law == LAW_SURFACE || b->parts[p].has_reference;
+        for (int32_t k = start; k < end; k++) {
+            ShellReference *reference = &b->references[b->index.part_shell[k]];
+            if (!reference->given || b->parts[p].has_reference) continue;
+            bool moved = false;
+            const ShellRecord *record = &b->records[b->index.part_shell[k]];
+            for (int a = 0; a < record->corner_count; a++)
+                for (int i = 0; i < 3; i++) moved |= reference->x[3 * a + i] != b->x[3 * record->node[a] + i];
+            if (moved && !said)
+                diagnostics_add(b->diagnostics, SEVERITY_WARNING, reference->source, reference->keyword,
+                                "part %d is not of *MAT_FABRIC: its elements keep the geometry of the mesh",
+                                b->model->parts[p].id);
+            said |= moved;
+            reference->given = false;
+        }
+    }
+}
+
+/* The number of the pair of birth and RDT, from 1. */
+static int reference_class(Builder *b, double birth, bool rdt)
+{
+    for (size_t i = 0; i < b->reference_classes.count; i++)
+        if (b->reference_classes.items[i].birth == birth && b->reference_classes.items[i].rdt == rdt) return (int)i + 1;
+    if (memory_reserve((void **)&b->reference_classes.items, &b->reference_classes.capacity,
+                       b->reference_classes.count + 1, sizeof *b->reference_classes.items))
+        return -1;
+    b->reference_classes.items[b->reference_classes.count++] = (ReferenceClass){birth, rdt};
+    return (int)b->reference_classes.count;
+}
+
+/* Mass and area by the reference; the mass counts if the reference acts from the start (eq. R2). */
+static int finish_shell(ReferenceBuild *r, int i, int *listed)
+{
+    Builder *b = r->b;
+    ShellRecord *record = &b->records[i];
+    const ShellReference *reference = &b->references[i];
+    const PartRecord *part = &b->parts[record->part];
+    Part *sums = &b->model->parts[record->part];
+    if (!reference->given) return 0;
+    ElementInput input = {.kind = record->kind, .x = reference->x, .axis = record->axis, .law = &part->fabric};
+    GeometryStatus problem = geometry_check(&input);
+    if (problem != GEOMETRY_OK) {
+        report(b, reference->source, reference->keyword, listed, "element %d %s in the reference geometry",
+               b->definitions->shells.items[i].id,
+               problem == GEOMETRY_ZERO_AREA  ? "has no area"
+               : problem == GEOMETRY_INVERTED ? "is inverted: its corners do not go round a convex quadrilateral"
+                                              : "is normal to its fibre direction (AOPT)");
+        return -1;
+    }
+    record->reference = reference_class(b, reference->birth, reference->rdt);
+    if (record->reference < 0) return -1;
+    double area = geometry_area(record->corner_count, reference->x);
+    double mass = area * (part->density * record->thickness + part->area_density);
+    sums->reference_count++;
+    sums->reference_area += area;
+    sums->reference_mass += mass;
+    sums->referred_area += record->area;
+    sums->referred_mass += record->mass;
+    if (reference->birth > 0.0) return 0;
+    sums->mass += mass - record->mass;
+    record->mass = mass;
+    return 0;
+}
+
+int build_reference(Builder *b)
+{
+    const Definitions *d = b->definitions;
+    if (d->reference_blocks.count == 0) return 0;
+    ReferenceBuild r = {.b = b};
+    b->references = memory_alloc((size_t)b->shell_count + 1, sizeof *b->references);
+    int status = b->references && !reference_table_build(d, &r.table) ? 0 : -1, listed = 0;
+    if (!status) {
+        for (size_t i = 0; i < d->reference_blocks.count; i++)
+            if (d->reference_blocks.items[i].has_birth) r.birth = d->reference_blocks.items[i].birth;
+        status = check_nodes(&r);
+        take_nodes(&r);
+        if (take_shells(&r)) status = -1;
+        drop_unused(b);
+        for (int i = 0; i < b->shell_count; i++)
+            if (finish_shell(&r, i, &listed)) status = -1;
+    }
+    reference_table_free(&r.table);
+    memory_free(r.stand);
+    memory_free(r.votes);
+    memory_free(r.uses);
+    return status;
+}
