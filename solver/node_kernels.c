@@ -86,6 +86,14 @@ static void fill_terms(const Workspace *w, NodeChunk *chunk, int terms)
         memcpy(chunk->damping + 3 * i, w->class_damping + 3 * class, 3 * sizeof(double));
         memcpy(chunk->reference + 3 * i, w->class_velocity + 3 * class, 3 * sizeof(double));
     }
+    /* the empty lanes of the last pack: sums weight them with no mass and no area, and 0 x NaN is NaN */
+    int left = (PACK_WIDTH - chunk->count % PACK_WIDTH) % PACK_WIDTH;
+    double *per_node[] = {chunk->bag, chunk->load, chunk->stagnation};
+    double *per_component[] = {chunk->gravity, chunk->damping, chunk->reference};
+    for (int k = 0; k < 3; k++) {
+        memset(per_node[k] + chunk->count, 0, (size_t)left * sizeof(double));
+        memset(per_component[k] + 3 * chunk->count, 0, 3 * (size_t)left * sizeof(double));
+    }
 }
 
 /* Values of PACK_WIDTH nodes to three packs of their components. */
@@ -208,9 +216,9 @@ ALWAYS_INLINE void integrate_tail(int terms, Workspace *w, NodeChunk *chunk, int
     memcpy(copy[1], home.v, size);
     memcpy(inverse, w->model->inverse_mass + chunk->first + i, (size_t)left * sizeof(double));
     memcpy(mass, w->model->mass + chunk->first + i, (size_t)left * sizeof(double));
-    memset(chunk->force + 3 * chunk->count, 0, SUM_WIDTH * sizeof(double));
-    memset(chunk->area + 3 * chunk->count, 0, SUM_WIDTH * sizeof(double));
-    for (int j = 3 * chunk->count; j < 3 * i + TAIL && j < COMPONENTS; j++) chunk->force[j] = chunk->area[j] = 0.0;
+    size_t empty = (size_t)(3 * i + TAIL - 3 * chunk->count) * sizeof(double);
+    memset(chunk->force + 3 * chunk->count, 0, empty);
+    memset(chunk->area + 3 * chunk->count, 0, empty);
     spread_terms(terms, chunk, inverse, mass, i, of);
     for (int third = 0; third < 3; third++) {
         int at = third * PACK_WIDTH;

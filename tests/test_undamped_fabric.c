@@ -14,7 +14,7 @@
 static void test_run_ends(void **state)
 {
     (void)state;
-    Scene scene;
+    Scene scene = {0};
     scene_speed(&scene, SCENE_QUADS, 2000, 6000);
     VerifyRun run;
     assert_int_equal(verify_build(&run, scene.deck.text, scene.deck.length, &(VerifyOptions){.every = 1}), 0);
@@ -34,7 +34,7 @@ static void test_run_ends(void **state)
 static void test_damped_is_not_warned_of(void **state)
 {
     (void)state;
-    Scene scene;
+    Scene scene = {0};
     scene_driver_bag(&scene, 8);
     VerifyRun run;
     assert_int_equal(verify_build(&run, scene.deck.text, scene.deck.length, &(VerifyOptions){0}), 0);
