@@ -29,6 +29,7 @@ static const KeywordFamily *const families[] = {
     &keyword_family_solids,
     &keyword_family_links,
     &keyword_family_seatbelt,
+    &keyword_family_seams,
     &keyword_family_rigid_bodies,
     &keyword_family_control,
     &keyword_family_database,

@@ -37,6 +37,7 @@ void report_write_keywords(const Definitions *d, FILE *stream)
         {"vectors (*DEFINE_VECTOR)", d->vectors.count},
         {"boxes (*DEFINE_BOX)", d->boxes.count},
         {"hanging nodes (*CONSTRAINED_ADAPTIVITY)", d->adaptivities.count},
+        {"seams (*CONSTRAINED_SPOTWELD)", d->spotwelds.count},
         {"output intervals (*DATABASE)", d->databases.count},
         {"history entries (*DATABASE_HISTORY)", d->histories.count},
         {"supports (*BOUNDARY_SPC)", d->spcs.count},
@@ -212,6 +213,7 @@ void report_write_conditions(const Model *model, FILE *stream)
         {"classes of body force and damping", model->loads.class_count > 1 ? model->loads.class_count - 1 : 0},
         {"moving rigid bodies", model->rigid_body_count},
         {"springs, cables and trusses", model->link_count},
+        {"pairs of nodes that a seam joins", model->seam_count},
     };
     bool any = false;
     write_heading("Supports and loads", stream);

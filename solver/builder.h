@@ -130,5 +130,8 @@ int build_wall_nodes(Builder *builder);        /* the same in the model's order;
 int build_jets(Builder *builder);              /* after build_groups */
 void mark_jet_nodes(Builder *builder, unsigned char *special); /* by build_renumber: NREACT */
 int build_sensors(Builder *builder);                           /* after the motion is taken over */
+int build_seams(Builder *builder);                             /* seams; after build_shells and lumping */
+int build_seam_nodes(Builder *builder); /* in the model's order; after the motion is taken over */
+void mark_seam_nodes(const Builder *builder, unsigned char *special); /* by build_renumber */
 
 #endif

@@ -56,7 +56,8 @@ void definitions_free(Definitions *d)
                      d->functions.items,
                      d->reference_blocks.items,
                      d->reference_nodes.items,
-                     d->reference_shells.items};
+                     d->reference_shells.items,
+                     d->spotwelds.items};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) memory_free(lists[i]);
     memset(d, 0, sizeof *d);
 }

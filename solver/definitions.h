@@ -15,6 +15,7 @@
 #include "solver/definitions_mesh.h"
 #include "solver/definitions_reference.h"
 #include "solver/definitions_rigid.h"
+#include "solver/definitions_seam.h"
 #include "solver/definitions_set.h"
 #include "solver/record_list.h"
 
@@ -42,6 +43,7 @@ typedef struct Definitions {
     LIST(VectorDefinition) vectors;
     LIST(BoxDefinition) boxes;
     LIST(AdaptivityDefinition) adaptivities;
+    LIST(SpotweldDefinition) spotwelds;
     ControlDefinitions control;
     LIST(DatabaseDefinition) databases;
     LIST(HistoryDefinition) histories;

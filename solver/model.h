@@ -27,6 +27,7 @@
 #include "solver/loads.h"
 #include "solver/relax_control.h"
 #include "solver/rigid_body.h"
+#include "solver/seam.h"
 
 typedef enum ElementKind {
     ELEMENT_TRIANGLE,  /* 3-node, constant strain */
@@ -165,6 +166,8 @@ typedef struct Model {
     Solid *solids;
     int link_count;
     Link *links; /* springs, cables, trusses: elements/link.h */
+    int seam_count;
+    Seam *seams; /* solver/seam.h */
 
     int group_count, chunk_count, padded_count;
     ElementGroup *groups;

@@ -84,10 +84,22 @@ static void watch_sensors(const Recorder *recorder, const Model *model, const St
             log_write_event(recorder->log, state->clock, "the sensor of airbag %d fires", model->sensors[i].airbag_id);
 }
 
+/* One line for each seam that has torn since the last cycle. */
+static void watch_seams(Recorder *recorder, const Model *model, const State *state)
+{
+    for (int i = 0; recorder->seams_watched && i < model->seam_count; i++)
+        if (state->seam_torn[i] >= recorder->seams_from && state->seam_torn[i] < state->clock->time)
+            log_write_event(recorder->log, state->clock, "the seam between nodes %d and %d has torn",
+                            model->node_id[model->seams[i].node[0]], model->node_id[model->seams[i].node[1]]);
+    recorder->seams_from = state->clock->time;
+    recorder->seams_watched = true;
+}
+
 static bool recorder_due(void *user, const Model *model, const State *state, bool last)
 {
     Recorder *recorder = user;
     const double wall = progress_now();
+    if (model->seam_count > 0) watch_seams(recorder, model, state);
     recorder->asked = true;
     recorder->due = schedule_due(&recorder->plan, state->clock);
     recorder->want_checkpoint = recorder->want_checkpoint || schedule_checkpoint_due(&recorder->plan, state->clock);

@@ -29,6 +29,8 @@ typedef struct Recorder {
     bool stopped_by_user;
     bool write_failed; /* results or checkpoint could not be written: the run ends */
     bool energy_warned, fabric_warned;
+    bool seams_watched;
+    double seams_from;        /* time of the last cycle if seams_watched: those that tore since are logged */
     double next_look;         /* wall time of the next look at d3kil */
     double last_time;         /* of the last cycle that was emitted; a run's last cycle always is */
     size_t memory;            /* bytes held when a cycle was last emitted: model, state and buffers */

@@ -72,6 +72,7 @@ typedef struct State {
     ReferenceState *reference; /* (group_count if Model.has_reference, else none) */
     unsigned char *reached;    /* 1: the element has been taut, its liner acts (padded_count if Model.liner_waits, else
                                   none); written by the element stage */
+    double *seam_torn;         /* time at which each seam tore, -1: it holds (seam_count); written by seams_act */
 } State;
 
 /* Bytes that a State of this model needs. */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "solver/step_links.h"
+#include "solver/step_seams.h"
 #include "solver/workspace.h"
 
 /* Forces of the special nodes; stress, bag and load pressure on the velocities before the step for the ledger. */
@@ -147,6 +148,7 @@ void step_special(Workspace *w)
     constraints_fold_forces(&m->constraints, w->force);
     accelerate(w);
     memcpy(w->newton, state->v + first, (size_t)count * sizeof *w->newton);
+    if (m->seam_count > 0) seams_act(m, state, plan->dt_mean);
     constraints_apply(&m->constraints, m->curves, plan->time, plan->dt_mean, plan->dt_next, state->x, m->initial,
                       m->mass, w->before, state->v, NULL);
     if (m->wall_count > 0) step_walls_special(w, t);

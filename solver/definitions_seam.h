@@ -1,0 +1,13 @@
+/* Seams and tears of the deck as written, part of solver/definitions.h. */
+#ifndef BILLOW_DEFINITIONS_SEAM_H
+#define BILLOW_DEFINITIONS_SEAM_H
+
+#include "solver/diagnostics.h"
+
+typedef struct SpotweldDefinition { /* *CONSTRAINED_SPOTWELD */
+    int node[2];
+    double sn, ss, n, m, tf, ep;
+    Source source;
+} SpotweldDefinition;
+
+#endif
