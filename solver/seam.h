@@ -14,7 +14,7 @@ typedef struct Seam {
     double end;             /* TF: time at which it opens in any case */
 } Seam;
 
-/* The seam tears under the force (3) on its first node, with the nodes at x and y (eq. W3). */
+/* The seam tears under the force (3) on its first node, with the nodes at x and y (eq. X3). */
 bool seam_tears(const Seam *seam, const double force[3], const double x[3], const double y[3]);
 
 #endif

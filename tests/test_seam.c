@@ -3,7 +3,9 @@
 #include "tests/wall_case.h"
 
 #include <string.h>
+#include <unistd.h>
 
+#include "io/checkpoint.h"
 #include "solver/seam.h"
 
 /* Two squares of four loose masses of 1; nodes 1 and 6 at one place (apart: the second above by that much). Node 1 is
@@ -152,6 +154,86 @@ static void held_nodes_are_refused(void **state)
     verify_free(&result);
 }
 
+enum { SHEET_CELLS = 12, SHEET_CYCLES = 300 };
+
+/* Two sheets of fabric under pressure, held at their outer edges and joined along x = 0.3 by welds that tear one after
+ * the other from one end. */
+static void make_sheets(Scene *scene)
+{
+    SceneText *deck = &scene->deck;
+    SceneMesh *mesh = &scene->mesh;
+    const SceneFabric fabric = scene_isotropic(0, true, 800, 3e8, 0.3);
+    deck->exact = true;
+    scene_begin(deck, "torn sheets", 1, 0.9);
+    scene_write_part(deck, 1, 1, 1, "sheets");
+    scene_write_section(deck, 1, 9, 4e-4);
+    scene_write_fabric(deck, 1, &fabric);
+    scene_add_rectangle(mesh, 1, SCENE_DIAGONAL, SHEET_CELLS, SHEET_CELLS, 0.3, 0.3);
+    const int second = mesh->node_count;
+    scene_add_rectangle(mesh, 1, SCENE_QUADS, SHEET_CELLS, SHEET_CELLS, 0.3, 0.3);
+    scene_transform(mesh, second, (const double[9]){1, 0, 0, 0, 1, 0, 0, 0, 1}, (const double[3]){0.3, 0, 0});
+    scene_print(deck, "*CONSTRAINED_SPOTWELD\n");
+    for (int i = 0; i < second; i++)
+        for (int j = second; j < mesh->node_count; j++)
+            if (fabs(mesh->x[3 * i] - 0.3) < 1e-9 && fabs(mesh->x[3 * j] - 0.3) < 1e-9 &&
+                fabs(mesh->x[3 * i + 1] - mesh->x[3 * j + 1]) < 1e-9)
+                scene_print(deck, "%d,%d,%.17g\n", i + 1, j + 1, 10 + 400 * mesh->x[3 * i + 1]);
+    scene_print(deck, "*BOUNDARY_SPC_NODE\n");
+    for (int i = 0; i < mesh->node_count; i++)
+        if (fabs(mesh->x[3 * i] - 0.3) > 0.299) scene_print(deck, "%d,0,1,1,1\n", i + 1);
+    scene_write_curve(deck, 1, 3, (const double[]){0, 0, 0.005, 2e4, 1, 2e4});
+    scene_write_pressure(deck, 1, mesh, 0, 1, -1);
+    scene_end(deck, mesh);
+}
+
+static void build_sheets(VerifyRun *run, int threads, int64_t stop)
+{
+    Scene scene = {0};
+    make_sheets(&scene);
+    assert_int_equal(
+        verify_build(run, scene.deck.text, scene.deck.length, &(VerifyOptions){.threads = threads, .stop = stop}), 0);
+    scene_free(&scene);
+}
+
+static int count_torn(const VerifyRun *run)
+{
+    int torn = 0;
+    for (int i = 0; i < run->model.seam_count; i++) torn += run->state.seam_torn[i] >= 0.0;
+    return torn;
+}
+
+/* Stopped in the middle of a tear and restarted from the file on another number of threads: the same bits. */
+static void a_tear_is_the_same_after_a_restart_and_on_any_threads(void **state)
+{
+    (void)state;
+    static const char path[] = "test_seam.billow";
+    VerifyRun straight;
+    build_sheets(&straight, 1, SHEET_CYCLES);
+    assert_int_equal(verify_loop(&straight), 0);
+    assert_int_equal(straight.model.seam_count, SHEET_CELLS + 1);
+    const uint64_t hash = state_hash(&straight.state);
+    const int torn = count_torn(&straight);
+    double middle = 0.0;
+    for (int i = 0; i < straight.model.seam_count; i++) middle = fmax(middle, straight.state.seam_torn[i]);
+    print_message("    %d of %d torn, the last at %g\n", torn, straight.model.seam_count, middle);
+    assert_int_equal(torn, SHEET_CELLS + 1);
+    verify_free(&straight);
+    for (int threads = 1; threads <= 4; threads++) {
+        VerifyRun first, second;
+        build_sheets(&first, threads, SHEET_CYCLES / 2);
+        assert_int_equal(verify_loop(&first), 0);
+        assert_in_range(count_torn(&first), 1, torn - 1);
+        assert_int_equal(checkpoint_write(path, &first.model, &first.state, &first.diagnostics), 0);
+        build_sheets(&second, 5 - threads, SHEET_CYCLES);
+        assert_int_equal(checkpoint_read(path, &second.model, &second.state, &second.diagnostics), 0);
+        assert_int_equal(verify_loop(&second), 0);
+        assert_true(state_hash(&second.state) == hash);
+        verify_free(&first);
+        verify_free(&second);
+    }
+    unlink(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -159,6 +241,7 @@ int main(void)
         cmocka_unit_test(time_opens_a_weld),         cmocka_unit_test(shear_tears_nodes_that_are_apart),
         cmocka_unit_test(the_criterion_adds_powers), cmocka_unit_test(bad_welds_are_told_together),
         cmocka_unit_test(held_nodes_are_refused),
+        cmocka_unit_test(a_tear_is_the_same_after_a_restart_and_on_any_threads),
     };
     return cmocka_run_group_tests_name("seams", tests, NULL, NULL);
 }
