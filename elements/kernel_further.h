@@ -31,27 +31,26 @@ ALWAYS_INLINE PackTensor stress_curve(const LawInput *in, const PointPlace *plac
 }
 
 /* Rubber (eq. H1 to H9). What holds the hourglass of a one-point quad is in GEOMETRY_RATE. */
-ALWAYS_INLINE PackTensor stress_rubber(int mode, bool one_point, const LawInput *in, const PointPlace *place,
-                                       PointPack *p)
+ALWAYS_INLINE PackTensor stress_rubber(int mode, const LawInput *in, const PointPlace *place, PointPack *p)
 {
     const RubberLaw *law = in->law.rubber;
     RubberResult r = mode & MODE_OGDEN ? ogden_stress(law, p->c) : mooney_stress(law, p->c);
     p->energy = lane_values(place->point, GEOMETRY_WEIGHT) * r.energy;
     p->rate = r.modulus * lane_values(place->tail, GEOMETRY_STRESS_RATE);
-    if (one_point) p->rate += major_value(p->c) * lane_values(place->tail, GEOMETRY_RATE);
+    if (in->hourglass) p->rate += major_value(p->c) * lane_values(place->tail, GEOMETRY_RATE);
     return r.stress;
 }
 
 /* From C to the natural stress of count packs of points. */
-ALWAYS_INLINE void further_stress(int mode, const LawInput *in, int count, const PointPlace *place,
+ALWAYS_INLINE void further_stress(int mode, bool one_point, const LawInput *in, int count, const PointPlace *place,
                                   PointPack *restrict p)
 {
     for (int i = 0; i < count; i++) {
         p[i].viscous = pack_of(0.0);
-        PackTensor s = mode & MODE_CURVE ? stress_curve(in, &place[i], &p[i])
-                                         : stress_rubber(mode, in->one_point, in, &place[i], &p[i]);
+        PackTensor s =
+            mode & MODE_CURVE ? stress_curve(in, &place[i], &p[i]) : stress_rubber(mode, in, &place[i], &p[i]);
         if (in->has_history) /* with a memory the energy is the work of the stress */
-            s = keep_history(in->law.has_memory ? MODE_LOGARITHMIC : 0, in, &place[i], s, &p[i]);
+            s = with_history(one_point, in->law.has_memory, in, &place[i], s, &p[i]);
         p[i].p = natural_directions(place[i].point, s);
     }
 }

@@ -21,7 +21,7 @@ typedef struct LawInput {
     Compliance compliance;
     double inverse_step;
     double count_work;           /* 1, or 0 when histories are only filled */
-    bool has_history, one_point; /* of the group; for the further laws */
+    bool has_history, hourglass; /* of the group, for the further laws; hourglass: a one-point quad */
 } LawInput;
 
 /* What a kernel does besides the law; a constant of each kernel, so that its loops have no branch. */
@@ -36,15 +36,16 @@ enum {
 /* Where the constants and histories of one pack of points lie. */
 typedef struct PointPlace {
     const double *point, *tail; /* elements/kernels.h */
-    double *metric;             /* C of the last step */
-    float *stress;              /* S of the last step */
+    double *metric;             /* C of the last step, of an element with one point */
+    float *stress;              /* S likewise */
     double *memory;             /* of the further laws */
 } PointPlace;
 
 /* A pack of points: what comes in and what the stages leave. */
 typedef struct PointPack {
-    PackTensor c; /* right Cauchy-Green tensor in material axes */
-    PackTensor p; /* weight x M S M^T, the stress in natural directions */
+    PackTensor c;      /* right Cauchy-Green tensor in material axes */
+    PackTensor change; /* of c since the last step; where there are four points only with DAMP */
+    PackTensor p;      /* weight x M S M^T, the stress in natural directions */
     Pack energy, viscous, rate;
 } PointPack;
 
@@ -115,36 +116,61 @@ ALWAYS_INLINE PackTensor stress_green(int mode, const LawInput *in, const PointP
     return r.stress;
 }
 
-/* Damping and the stress-work ledger: dW = (S_n + S_n+1)/2 : (E_n+1 - E_n), 2 dE = dC (eq. E12 to E14). */
-ALWAYS_INLINE PackTensor keep_history(int mode, const LawInput *in, const PointPlace *place, PackTensor s, PointPack *p)
+/* The stress with DAMP 2/omega / dt of the strain rate (eq. E12). */
+ALWAYS_INLINE PackTensor add_damping(const LawInput *in, const PointPlace *place, PackTensor change, PackTensor s)
 {
-    PackTensor change = {p->c.a11 - lane_values(place->metric, 0), p->c.a22 - lane_values(place->metric, 1),
-                         p->c.a12 - lane_values(place->metric, 2)};
-    if (in->law.damping > 0.0) {
-        /* DAMP 2/omega / dt of the strain rate (eq. E12); lanes beyond the last element have no frequency */
-        Pack square = lane_values(place->tail, GEOMETRY_RATE),
-             factor = pack_where_positive(
-                 square, (in->law.damping * in->inverse_step) / pack_root(square + BILLOW_TINY), pack_of(0.0));
-        PackTensor rate = {factor * change.a11, factor * change.a22, factor * change.a12};
-        s = add_tensors(s, apply_moduli(&in->law.whole, rate));
-    }
-    PackTensor sum = {s.a11 + pack_load_single(place->stress), s.a22 + pack_load_single(place->stress + LANES),
-                      s.a12 + pack_load_single(place->stress + 2 * LANES)};
+    if (!(in->law.damping > 0.0)) return s;
+    /* lanes beyond the last element have no frequency */
+    Pack square = lane_values(place->tail, GEOMETRY_RATE),
+         factor = pack_where_positive(square, (in->law.damping * in->inverse_step) / pack_root(square + BILLOW_TINY),
+                                      pack_of(0.0));
+    PackTensor rate = {factor * change.a11, factor * change.a22, factor * change.a12};
+    return add_tensors(s, apply_moduli(&in->law.whole, rate));
+}
+
+/* The change of a value that work is counted of, kept for the next step. */
+ALWAYS_INLINE Pack change_of(Pack value, double *kept)
+{
+    Pack change = value - pack_load(kept);
+    pack_store(kept, value);
+    return change;
+}
+
+/* Twice the mean of a stress and the last step's, kept for the next one. */
+ALWAYS_INLINE Pack sum_with_last(Pack stress, float *kept)
+{
+    Pack sum = stress + pack_load_single(kept);
+    pack_store_single(kept, stress);
+    return sum;
+}
+
+/* An element of one point: damping and the stress-work ledger, dW = (S_n + S_n+1)/2 : (E_n+1 - E_n), 2 dE = dC (eq. E12
+ * to E14). */
+ALWAYS_INLINE PackTensor keep_history(bool energy_is_work, const LawInput *in, const PointPlace *place, PackTensor s,
+                                      PointPack *p)
+{
+    PackTensor change = {change_of(p->c.a11, place->metric), change_of(p->c.a22, place->metric + LANES),
+                         change_of(p->c.a12, place->metric + 2 * LANES)};
+    s = add_damping(in, place, change, s);
+    PackTensor sum = {sum_with_last(s.a11, place->stress), sum_with_last(s.a22, place->stress + LANES),
+                      sum_with_last(s.a12, place->stress + 2 * LANES)};
     Pack work = (0.25 * in->count_work) * lane_values(place->point, GEOMETRY_WEIGHT) * contract(sum, change);
-    if (mode & (MODE_BIOT | MODE_LOGARITHMIC))
+    if (energy_is_work)
         p->energy = work;
     else
         p->viscous = work; /* less the stored energy's change this is what was dissipated */
-    const Pack metric[] = {p->c.a11, p->c.a22, p->c.a12}, stress[] = {s.a11, s.a22, s.a12};
-    for (int i = 0; i < HISTORY_POINT_SIZE; i++) {
-        pack_store(place->metric + (ptrdiff_t)i * LANES, metric[i]);
-        pack_store_single(place->stress + (ptrdiff_t)i * LANES, stress[i]);
-    }
     return s;
 }
 
+/* What the history adds to the stress of a point. */
+ALWAYS_INLINE PackTensor with_history(bool one_point, bool energy_is_work, const LawInput *in, const PointPlace *place,
+                                      PackTensor s, PointPack *p)
+{
+    return one_point ? keep_history(energy_is_work, in, place, s, p) : add_damping(in, place, p->change, s);
+}
+
 /* FORM 0 and 1 (eq. F1 to F7) from C to the natural stress: a stage for each root. */
-ALWAYS_INLINE void natural_stress_biot(int mode, const LawInput *in, int count, const PointPlace *place,
+ALWAYS_INLINE void natural_stress_biot(int mode, bool one_point, const LawInput *in, int count, const PointPlace *place,
                                        PointPack *restrict p)
 {
     BiotState state[STREAMS];
@@ -173,24 +199,25 @@ ALWAYS_INLINE void natural_stress_biot(int mode, const LawInput *in, int count, 
         if (mode & MODE_LINER) t[i] = add_tensors(t[i], biot_elastic(&in->law.liner, state[i].stretch));
         PackTensor s = stress_biot(mode, in, &place[i], &state[i], t[i], major, &p[i]);
         p[i].viscous = pack_of(0.0);
-        if (mode & MODE_HISTORY) s = keep_history(mode, in, &place[i], s, &p[i]);
+        if (mode & MODE_HISTORY) s = with_history(one_point, true, in, &place[i], s, &p[i]);
         p[i].p = natural_directions(place[i].point, s);
     }
 }
 
-/* From C to the natural stress of count packs of points. */
-ALWAYS_INLINE void natural_stress(int mode, const LawInput *in, int count, const PointPlace *place,
+/* From C to the natural stress of count packs of points. one_point: of elements with one point, which keep its history;
+ * quad_work keeps that of four. */
+ALWAYS_INLINE void natural_stress(int mode, bool one_point, const LawInput *in, int count, const PointPlace *place,
                                   PointPack *restrict p)
 {
     if (mode & MODE_BIOT) {
-        natural_stress_biot(mode, in, count, place, p);
+        natural_stress_biot(mode, one_point, in, count, place, p);
         return;
     }
     for (int i = 0; i < count; i++) {
         p[i].viscous = pack_of(0.0);
         PackTensor s = mode & MODE_LOGARITHMIC ? stress_logarithmic(in, &place[i], &p[i])
                                                : stress_green(mode, in, &place[i], &p[i]);
-        if (mode & MODE_HISTORY) s = keep_history(mode, in, &place[i], s, &p[i]);
+        if (mode & MODE_HISTORY) s = with_history(one_point, mode & MODE_LOGARITHMIC, in, &place[i], s, &p[i]);
         p[i].p = natural_directions(place[i].point, s);
     }
 }

@@ -33,14 +33,21 @@ enum {
     GEOMETRY_HOURGLASS_SIZE,
 };
 
-/* History of a block: C (11, 22, 12) of the last step at each point, then its second Piola-Kirchhoff stress in single
- * precision: the stress only weighs the work of one step (eq. E14), so that its rounding is lost in the ledger. */
-enum { HISTORY_POINT_SIZE = 3 };
+/* History of a block: what the work of a step is counted of, then the stresses conjugate to it in single precision:
+ * they only weigh the work of one step (eq. E14), so that their rounding is lost in the ledger. Elements with one
+ * point: C (11, 22, 12) of the last step and its second Piola-Kirchhoff stress. Quads with four: the products of the
+ * natural gradients that all their metrics are made of, and the forces conjugate to these (eq. E14a). */
+enum { HISTORY_POINT_VALUES = 3, HISTORY_QUAD_VALUES = 7 };
+
+static inline int history_values(int points)
+{
+    return points == 4 ? HISTORY_QUAD_VALUES : points * HISTORY_POINT_VALUES;
+}
 
 /* Doubles per lane of the history of an element with so many points. */
 static inline int history_size(int points)
 {
-    return points * HISTORY_POINT_SIZE + (points * HISTORY_POINT_SIZE + 1) / 2;
+    return history_values(points) + (history_values(points) + 1) / 2;
 }
 
 /* After that of all points: what a law of elements/kernel_further.h remembers at each point (kernel_curve_law.h). */

@@ -33,8 +33,7 @@ static PackTensor stress_of(LawKind kind, const FabricLaw *law, const LawInput *
     if (kind == LAW_GREEN) return stress_green(mode, in, place, p);
     if (kind == LAW_LOGARITHMIC) return stress_logarithmic(in, place, p);
     if (kind == LAW_CURVE) return stress_curve(in, place, p);
-    if (kind == LAW_RUBBER)
-        return stress_rubber(law->rubber->terms > 0 ? MODE_OGDEN : MODE_MOONEY, false, in, place, p);
+    if (kind == LAW_RUBBER) return stress_rubber(law->rubber->terms > 0 ? MODE_OGDEN : MODE_MOONEY, in, place, p);
     BiotState state = biot_state(p->c);
     Pack major;
     PackTensor t = biot_stress(law, law->no_compression, law->has_liner, state.stretch, &major);
