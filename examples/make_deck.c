@@ -51,6 +51,11 @@ static void make_prestressed_cushion(Scene *scene, const Options *options)
     scene_prestressed_cushion(scene, options->n);
 }
 
+static void make_folded_bag(Scene *scene, const Options *options)
+{
+    scene_folded_bag(scene, options->n, 0);
+}
+
 static void make_speed(Scene *scene, const Options *options)
 {
     scene_speed(scene, options->pattern, options->shells, options->cycles);
@@ -87,6 +92,8 @@ static const struct SceneName {
     {"landing-pad", "ring-shaped landing pad with a nozzle (-n cells across)", make_landing_pad},
     {"prestressed-cushion", "square cushion, inflated at the start, falls onto the floor (-n cells per side)",
      make_prestressed_cushion},
+    {"folded-bag", "square bag folded in eight layers that unfolds against itself (-n cells per side)",
+     make_folded_bag},
     {"disc", "clamped disc under pressure (-n, --pattern, --elform, --form)", make_disc},
     {"bag", "half of a bag of two discs under pressure (-n, --pattern, --elform, --form)", make_bag},
     {"square", "quarter of a square cushion under pressure (-n, --pattern, --elform, --form)", make_square},

@@ -243,6 +243,10 @@ void scene_landing_pad(Scene *scene, int n);
 void scene_prestressed_cushion(Scene *scene, int n);
 void scene_sewn_bag(Scene *scene, int n);
 
+/* A square bag of 4 n^2 triangles (n a multiple of 4; 0: 72) folded in eight layers, gap apart (0: their thickness),
+ * that unfolds against itself. */
+void scene_folded_bag(Scene *scene, int n, double gap);
+
 /* The speed benchmark: gas-filled cushion of about the given number of shells, orthotropic fabric FORM 0 with CSE. The
  * run takes about the given number of cycles. */
 void scene_speed(Scene *scene, ScenePattern pattern, int shells, int cycles);

@@ -159,6 +159,7 @@ void keyword_check_duplicates(Definitions *definitions, Diagnostics *diagnostics
         RECORDS(boxes, BoxDefinition, "*DEFINE_BOX", "box", -1),
         RECORDS(airbags, AirbagDefinition, "*AIRBAG", "airbag", -1),
         RECORDS(walls, RigidWallDefinition, "*RIGIDWALL", "rigid wall", -1),
+        RECORDS(contacts, ContactDefinition, "*CONTACT", "contact", -1),
     };
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) check_list(&lists[i], diagnostics);
 }

@@ -13,7 +13,6 @@
 static const KeywordSpec specs[] = {
     IGNORED("*CONTROL_ALE", "there are no ALE elements"),
     IGNORED("*CONTROL_CHECK_SHELL", "the build checks shells by itself"),
-    IGNORED("*CONTROL_CONTACT", "defaults of contacts, which are refused by themselves"),
     IGNORED("*CONTROL_CPU", "stop a run with Ctrl-C or a d3kil file"),
     IGNORED("*CONTROL_DEBUG", "output only"),
     IGNORED_FAMILY("*CONTROL_MPP", "threads need no decomposition"),

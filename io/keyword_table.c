@@ -31,6 +31,7 @@ static const KeywordFamily *const families[] = {
     &keyword_family_seatbelt,
     &keyword_family_seams,
     &keyword_family_rigid_bodies,
+    &keyword_family_contact,
     &keyword_family_control,
     &keyword_family_database,
     &keyword_family_ignored,

@@ -62,6 +62,7 @@ void log_write_deck(Log *log, const Definitions *definitions, const Model *model
     report_write_parts(model, file);
     report_write_reference(model, file);
     report_write_airbags(model, state, file);
+    report_write_contacts(model, file);
     report_write_conditions(model, file);
     report_write_walls(model, file);
     report_write_plan(model, plan, file);
@@ -109,8 +110,9 @@ static void write_timing(FILE *file, const Summary *summary)
         const char *name;
         double seconds;
     } rows[] = {
-        {"elements", times->elements}, {"gas", times->gas},         {"nodes", times->nodes},
-        {"special", times->special},   {"waiting", times->waiting}, {"output", times->output},
+        {"elements", times->elements}, {"gas", times->gas},       {"contact", times->contact},
+        {"search", times->search},     {"nodes", times->nodes},   {"special", times->special},
+        {"waiting", times->waiting},   {"output", times->output},
     };
     fprintf(file, "\nTiming\n------\n");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)

@@ -53,6 +53,7 @@ void report_write_keywords(const Definitions *d, FILE *stream)
         {"joined rigid parts (*CONSTRAINED_RIGID_BODIES)", d->merges.count},
         {"extra nodes of rigid parts (*CONSTRAINED_EXTRA_NODES)", d->extra_nodes.count},
         {"nodal rigid bodies (*CONSTRAINED_NODAL_RIGID_BODY)", d->nodal_bodies.count},
+        {"contacts (*CONTACT)", d->contacts.count},
     };
     write_heading("Keywords", stream);
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
@@ -289,6 +290,7 @@ void report_write_plan(const Model *model, const OutputPlan *plan, FILE *stream)
         {"nodout", plan->nodout, plan->history_count > 0},
         {"rbdout", plan->rbdout, model->rigid_body_count > 0},
         {"rwforc", plan->rwforc, model->wall_count > 0},
+        {"rcforc", plan->rcforc, model->contact_count > 0},
     };
     write_heading("End and output", stream);
     fprintf(stream, "  end time %.9g", model->end_time);

@@ -18,11 +18,8 @@ static const HistoryFormat *const formats[HISTORY_COUNT] = {
     [HISTORY_GLSTAT] = &results_glstat_format, [HISTORY_ABSTAT] = &results_abstat_format,
     [HISTORY_NODOUT] = &results_nodout_format, [HISTORY_ABSTAT_PARTS] = &results_abstat_parts_format,
     [HISTORY_RBDOUT] = &results_rbdout_format, [HISTORY_MATSUM] = &results_matsum_format,
-    [HISTORY_RWFORC] = &results_rwforc_format,
+    [HISTORY_RWFORC] = &results_rwforc_format, [HISTORY_RCFORC] = &results_rcforc_format,
 };
-
-/* Files that some model may have and this one does not: removed with the others when a folder is used anew. */
-static const char *const other_names[] = {"rcforc.csv", "rcforc"};
 
 static char *join_path(const char *dir, const char *name)
 {
@@ -61,16 +58,10 @@ static int remove_path(const char *path, Diagnostics *diagnostics)
 }
 
 /* Deletes everything an earlier run may have left under our names. */
-static int remove_old_files(Results *results, const char *dir)
+static int remove_old_files(Results *results)
 {
     int status = 0;
     for (int k = 0; k < HISTORY_COUNT; k++) status |= history_remove(&results->history[k]);
-    for (size_t i = 0; i < sizeof other_names / sizeof other_names[0]; i++) {
-        char *path = join_path(dir, other_names[i]);
-        if (!path) return report_memory(results->diagnostics);
-        status |= remove_path(path, results->diagnostics);
-        memory_free(path);
-    }
     status |= remove_path(results->grid_path, results->diagnostics);
     return status | remove_path(results->xdmf_path, results->diagnostics) ? -1 : 0;
 }
@@ -153,7 +144,7 @@ int results_open(const char *dir, const Model *model, bool append, double restar
     if (!opened) return report_memory(diagnostics);
     opened->diagnostics = diagnostics;
     if (allocate_results(opened, dir, model) ||
-        (append ? continue_files(opened, model, restart_time) : remove_old_files(opened, dir))) {
+        (append ? continue_files(opened, model, restart_time) : remove_old_files(opened))) {
         results_close(opened);
         return -1;
     }
@@ -167,15 +158,8 @@ int results_write_state(Results *results, const Model *model, const State *state
     if (!results->grid && vtkhdf_create(results->grid_path, model, &results->grid, results->diagnostics)) return -1;
     if (!results->xdmf && start_xdmf(results, model)) return -1;
     int before = vtkhdf_state_count(results->grid);
-    if (vtkhdf_write_state(results->grid, model, state, time, view->x, view->v)) return -1;
+    if (vtkhdf_write_state(results->grid, model, state, time, view->x, view->v, view->contact)) return -1;
     return vtkhdf_state_count(results->grid) > before ? xdmf_add_state(results->xdmf, before, time) : 0;
-}
-
-/* The model has no contact interfaces yet, so this file has no rows. */
-int results_write_rcforc(Results *results, const Model *model, const State *state, const StepView *view)
-{
-    (void)results, (void)model, (void)state, (void)view;
-    return 0;
 }
 
 int results_flush(Results *results)

@@ -15,6 +15,7 @@ typedef enum HistoryKind {
     HISTORY_RBDOUT,
     HISTORY_MATSUM,
     HISTORY_RWFORC,
+    HISTORY_RCFORC,
     HISTORY_COUNT
 } HistoryKind;
 
@@ -30,6 +31,6 @@ struct Results {
 
 /* Formats of the histories, defined beside their writers. */
 extern const HistoryFormat results_glstat_format, results_abstat_format, results_abstat_parts_format,
-    results_nodout_format, results_rbdout_format, results_matsum_format, results_rwforc_format;
+    results_nodout_format, results_rbdout_format, results_matsum_format, results_rwforc_format, results_rcforc_format;
 
 #endif

@@ -41,6 +41,8 @@ static void write_timing(FILE *file, const StageTimes *times)
     fputs("  \"timing\": {\n", file);
     write_number(file, indent, "elements", times->elements, ",\n");
     write_number(file, indent, "gas", times->gas, ",\n");
+    write_number(file, indent, "contact", times->contact, ",\n");
+    write_number(file, indent, "search", times->search, ",\n");
     write_number(file, indent, "nodes", times->nodes, ",\n");
     write_number(file, indent, "special", times->special, ",\n");
     write_number(file, indent, "waiting", times->waiting, ",\n");

@@ -25,6 +25,7 @@ const VtkHdfData vtkhdf_data[DATA_COUNT] = {
     [DATA_STRESS] = {"CellData/stress", 6, true, false},
     [DATA_STRAIN] = {"CellData/strain", 6, true, false},
     [DATA_THICKNESS] = {"CellData/thickness", 1, true, false},
+    [DATA_CONTACT] = {"CellData/contact", 1, true, false},
 };
 
 const VtkHdfColumn vtkhdf_columns[COLUMN_COUNT] = {
@@ -41,7 +42,7 @@ const VtkHdfColumn vtkhdf_columns[COLUMN_COUNT] = {
     {"CellDataOffsets/thickness", 0, ROWS_CELLS},
     {"CellDataOffsets/part_id", 0, ROWS_NONE},
     {"CellDataOffsets/element_id", 0, ROWS_NONE},
-    {"CellDataOffsets/contact", 0, ROWS_NONE},
+    {"CellDataOffsets/contact", 0, ROWS_CELLS},
 };
 
 int vtkhdf_report_failure(VtkHdf *grid, const char *action)
@@ -76,7 +77,7 @@ VtkHdf *vtkhdf_allocate(const char *path, const Model *model, Diagnostics *diagn
     grid->path = memory_alloc(strlen(path) + 1, 1);
     int most = model->node_count > model->element_count ? model->node_count : model->element_count;
     grid->piece = most > PIECE_ROWS ? PIECE_ROWS : most + 1;
-    grid->rows = memory_alloc((size_t)grid->piece * 13, sizeof(float));
+    grid->rows = memory_alloc((size_t)grid->piece * 14, sizeof(float));
     if (!grid->path || !grid->rows) {
         vtkhdf_close(grid);
         return NULL;
@@ -211,6 +212,18 @@ static int write_vectors(VtkHdf *grid, const Model *model, DataArray which, cons
     return 0;
 }
 
+/* Share of an element's corners that are in contact. */
+static float contact_share(const Model *model, const double *contact, int e)
+{
+    const int32_t *node = model->element_node + 4 * (ptrdiff_t)e;
+    int corners = node[3] == node[2] ? 3 : 4, count = 0;
+    if (!contact) return 0.0f;
+    for (int k = 0; k < corners; k++) {
+        count += contact[8 * (ptrdiff_t)node[k] + 3] > 0.0;
+    }
+    return (float)count / (float)corners;
+}
+
 static int write_displacements(VtkHdf *grid, const Model *model, const double *x)
 {
     float *displacement = (float *)(void *)grid->rows;
@@ -226,10 +239,10 @@ static int write_displacements(VtkHdf *grid, const Model *model, const double *x
     return 0;
 }
 
-static int write_cell_data(VtkHdf *grid, const Model *model, const State *state, const double *x)
+static int write_cell_data(VtkHdf *grid, const Model *model, const State *state, const double *x, const double *contact)
 {
     float *stress = (float *)(void *)grid->rows, *strain = stress + 6 * (ptrdiff_t)grid->piece,
-          *thickness = strain + 6 * (ptrdiff_t)grid->piece;
+          *thickness = strain + 6 * (ptrdiff_t)grid->piece, *share = thickness + grid->piece;
     for (int first = 0; first < model->element_count; first += grid->piece) {
         int count = piece_length(grid, first, model->element_count);
         for (int e = 0; e < count; e++) {
@@ -240,20 +253,23 @@ static int write_cell_data(VtkHdf *grid, const Model *model, const State *state,
                 strain[6 * (ptrdiff_t)e + c] = (float)result.strain[c];
             }
             thickness[e] = (float)result.thickness;
+            share[e] = contact_share(model, contact, first + e);
         }
         if (write_piece(grid, DATA_STRESS, first, count, stress) ||
             write_piece(grid, DATA_STRAIN, first, count, strain) ||
-            write_piece(grid, DATA_THICKNESS, first, count, thickness))
+            write_piece(grid, DATA_THICKNESS, first, count, thickness) ||
+            write_piece(grid, DATA_CONTACT, first, count, share))
             return -1;
     }
     return 0;
 }
 
-static int append_rows(VtkHdf *grid, const Model *model, const State *state, const double *x, const double *v)
+static int append_rows(VtkHdf *grid, const Model *model, const State *state, const double *x, const double *v,
+                       const double *contact)
 {
     return extend_arrays(grid) || write_vectors(grid, model, DATA_POINTS, x) ||
                    write_vectors(grid, model, DATA_VELOCITY, v) || write_displacements(grid, model, x) ||
-                   write_cell_data(grid, model, state, x)
+                   write_cell_data(grid, model, state, x, contact)
                ? -1
                : 0;
 }
@@ -276,14 +292,14 @@ static int append_step(VtkHdf *grid, double time)
 }
 
 int vtkhdf_write_state(VtkHdf *grid, const Model *model, const State *state, double time, const double *x,
-                       const double *v)
+                       const double *v, const double *contact)
 {
     if (grid->count > 0 && !(time > grid->times[grid->count - 1])) return 0;
     if (memory_reserve((void **)&grid->times, &grid->capacity, grid->count + 1, sizeof *grid->times))
         return vtkhdf_report_memory(grid->diagnostics, grid->path);
     errno = 0;
     if (vtkhdf_reserve_space(grid, state_bytes(grid))) return vtkhdf_report_failure(grid, "write");
-    if (append_rows(grid, model, state, x, v) || append_step(grid, time)) {
+    if (append_rows(grid, model, state, x, v, contact) || append_step(grid, time)) {
         grid->broken = true;
         return vtkhdf_report_failure(grid, "write");
     }

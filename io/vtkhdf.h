@@ -25,10 +25,11 @@ int vtkhdf_state_count(const VtkHdf *grid);
 double vtkhdf_state_time(const VtkHdf *grid, int index);
 
 /* Appends a state and flushes the file: x and v are positions and velocities at this time in the model's node order
- * (node_count x 3), state tells the reference geometry that holds. A time not later than the last state's changes
- * nothing. 0, or -1 with an environment error; the file then still holds its earlier states. */
+ * (node_count x 3), state tells the reference geometry that holds, contact the rows of contact (force and load, eight
+ * of each node, NULL: none). A time not later than the last state's changes nothing. 0, or -1 with an environment
+ * error; the file then still holds its earlier states. */
 int vtkhdf_write_state(VtkHdf *grid, const Model *model, const State *state, double time, const double *x,
-                       const double *v);
+                       const double *v, const double *contact);
 
 /* Closes and frees. 0, or -1 with an environment error. NULL is allowed. */
 int vtkhdf_close(VtkHdf *grid);

@@ -13,6 +13,7 @@ typedef enum DataArray {
     DATA_STRESS,
     DATA_STRAIN,
     DATA_THICKNESS,
+    DATA_CONTACT,
     DATA_COUNT
 } DataArray;
 
@@ -47,7 +48,7 @@ struct VtkHdf {
     double *times; /* of the states in the file (count) */
     size_t count, capacity;
     int piece;    /* rows of a state that are staged and written together */
-    double *rows; /* workspace for one piece: doubles (piece x 3) or floats (piece x 13) */
+    double *rows; /* workspace for one piece: doubles (piece x 3) or floats (piece x 14) */
 };
 
 /* Memory and names for a file that is not open yet; NULL without memory (reported). */

@@ -98,13 +98,6 @@ static hsize_t fill_part_ids(MeshWriter *writer, int first, int last)
     return (hsize_t)(last - first);
 }
 
-/* All 0: nothing touches. */
-static hsize_t fill_contact(MeshWriter *writer, int first, int last)
-{
-    memset(writer->values, 0, (size_t)(last - first));
-    return (hsize_t)(last - first);
-}
-
 static hsize_t fill_node_ids(MeshWriter *writer, int first, int last)
 {
     int32_t *values = writer->values;
@@ -160,7 +153,6 @@ static int write_ids(MeshWriter *writer, hid_t root)
     const int points = writer->model->node_count, cells = writer->model->element_count;
     return write_pieces(writer, root, "CellData/element_id", VALUE_INT32, (hsize_t)cells, cells, fill_element_ids) ||
                    write_pieces(writer, root, "CellData/part_id", VALUE_INT32, (hsize_t)cells, cells, fill_part_ids) ||
-                   write_pieces(writer, root, "CellData/contact", VALUE_UINT8, (hsize_t)cells, cells, fill_contact) ||
                    write_pieces(writer, root, "PointData/node_id", VALUE_INT32, (hsize_t)points, points, fill_node_ids)
                ? -1
                : 0;

@@ -13,7 +13,7 @@ typedef struct MeshCount {
 
 MeshCount vtkhdf_count_cells(const Model *model);
 
-/* Writes counts, topology, ids, parts and the contact flags below root (the VTKHDF group, with its groups PointData and
+/* Writes counts, topology, ids and parts below root (the VTKHDF group, with its groups PointData and
  * CellData), in deck order; where triangles and quads are mixed also the file's /XDMF/Topology, in which each cell's
  * corners follow its XDMF type. 0, or -1. */
 int vtkhdf_write_mesh(hid_t file, hid_t root, const Model *model);

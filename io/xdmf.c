@@ -144,7 +144,7 @@ static const AttributeLayout attributes[] = {
     {"thickness", "/VTKHDF/CellData/thickness", "Scalar", "Float", 4, 1, true, false},
     {"part_id", "/VTKHDF/CellData/part_id", "Scalar", "Int", 4, 1, true, true},
     {"element_id", "/VTKHDF/CellData/element_id", "Scalar", "Int", 4, 1, true, true},
-    {"contact", "/VTKHDF/CellData/contact", "Scalar", "UChar", 1, 1, true, true},
+    {"contact", "/VTKHDF/CellData/contact", "Scalar", "Float", 4, 1, true, false},
 };
 
 static void add_topology(Text *text, const Xdmf *xdmf)

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <string.h>
 
+#include "solver/build_contact.h"
 #include "solver/builder.h"
 #include "solver/memory.h"
 
@@ -120,6 +121,8 @@ static void set_origin(Builder *b)
 static void builder_free(Builder *b)
 {
     for (int i = 0; b->closures && i < b->model->airbag_count; i++) surface_closure_free(&b->closures[i]);
+    for (int i = 0; b->contacts && i < b->model->contact_count; i++) contact_surfaces_free(&b->contacts[i]);
+    memory_free(b->contacts);
     motion_free(&b->motion);
     deck_index_free(&b->index);
     void *blocks[] = {b->x,     b->mass,      b->records,   b->parts,      b->closures,
@@ -153,14 +156,16 @@ static int run_stages(Builder *b)
     if (status && b->diagnostics->errors == errors) return -1;
     if (build_airbags(b) || build_connections(b)) status = -1;
     if (build_walls(b)) status = -1;
+    if (build_contacts(b)) status = -1;
     if (build_mass_scaling(b)) status = -1;
     lump_masses(b);
     if (build_movement(b)) status = -1;
     if (build_seams(b)) status = -1;
     if (status) return -1;
     if (build_pressure_sets(b)) return -1;
-    if (build_renumber(b) || build_groups(b) || build_areas(b) || build_wall_nodes(b) || build_link_ends(b)) return -1;
-    if (build_jets(b)) return -1;
+    if (build_renumber(b) || build_contact_surfaces(b) || build_groups(b) || build_areas(b) || build_wall_nodes(b) ||
+        build_link_ends(b) || build_jets(b))
+        return -1;
     set_origin(b);
     b->model->caps_push_rim = b->options->caps_push_rim;
     if (take_motion(b)) return -1;

@@ -56,11 +56,19 @@ static int history_nodes(Builder *b)
     return status;
 }
 
+/* Largest share of the elements' stable step that leaves something to contact (theory, eq. C5). */
+#define STEP_WITH_CONTACT 0.94
+
 static int step_control(Builder *b)
 {
     const ControlDefinitions *c = &b->definitions->control;
     Model *m = b->model;
     m->step_scale = c->timestep.given && c->timestep.tssfac > 0.0 ? c->timestep.tssfac : 0.9;
+    if (b->definitions->contacts.count > 0 && m->step_scale > STEP_WITH_CONTACT) {
+        diagnostics_add(b->diagnostics, SEVERITY_NOTE, c->timestep.source, "*CONTROL_TIMESTEP",
+                        "TSSFAC = %g leaves no room for contact; %g is used", m->step_scale, STEP_WITH_CONTACT);
+        m->step_scale = STEP_WITH_CONTACT;
+    }
     m->step_initial = c->timestep.given ? c->timestep.dtinit : 0.0;
     m->step_minimum = c->termination.given ? c->termination.dtmin : 0.0;
     m->step_limit_curve = -1;

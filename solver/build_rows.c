@@ -94,7 +94,8 @@ static int order_segments(Builder *b)
     int status = keys && m->segment_order ? 0 : -1;
     for (int s = 0; !status && s < m->segment_count; s++) keys[s].segment = s;
     for (int n = 0; !status && n < m->node_count; n++) {
-        for (int32_t k = m->node_row_start[n], s = 0; k < m->node_row_start[n + 1]; k++) {
+        for (int32_t k = m->node_row_start[n], s = 0;
+             k < m->node_row_start[n + 1] && (m->contact_count == 0 || m->node_row[k] < m->contact_row); k++) {
             while (m->row_start[s + 1] <= m->node_row[k]) s++;
             keys[s].place += (double)n / (m->row_start[s + 1] - m->row_start[s]);
         }
@@ -127,6 +128,9 @@ static int list_rows(Builder *b, SegmentNodes *nodes)
 {
     Model *m = b->model;
     size_t count = (size_t)m->node_count;
+    int contact_nodes = m->contact_count > 0 ? m->moving_count : 0;
+    m->contact_row = m->row_count;
+    m->row_count += m->contact_count > 0 ? m->node_count : 0;
     m->row_set = builder_alloc(b, (size_t)m->row_count + 1, sizeof *m->row_set);
     m->node_row = builder_alloc(b, (size_t)m->row_count + 1, sizeof *m->node_row);
     m->node_row_start = builder_alloc(b, count + 2, sizeof *m->node_row_start);
@@ -149,6 +153,13 @@ static int list_rows(Builder *b, SegmentNodes *nodes)
                         m->node_row[m->node_row_start[node + 1]++] = group->row[i];
                 }
             }
+        }
+        for (int n = 0; n < contact_nodes; n++) { /* the last row of a node has what contact pushes it with */
+            m->row_set[m->contact_row + n] = -1;
+            if (pass == 0)
+                m->node_row_start[n + 2]++;
+            else
+                m->node_row[m->node_row_start[n + 1]++] = m->contact_row + n;
         }
         for (size_t n = 0; pass == 0 && n < count; n++) m->node_row_start[n + 2] += m->node_row_start[n + 1];
     }

@@ -76,8 +76,9 @@ typedef struct Builder {
     unsigned char *wall_node;   /* nodes named by each wall (wall count x node count), deck order */
     ShellReference *references; /* (shell_count); NULL without reference geometry */
     LIST(ReferenceClass) reference_classes;
-    SurfaceClosure *closures; /* (airbag count), nodes in deck order until build_renumber */
-    int32_t *order;           /* element order: order[k] = record of the k-th element in group order */
+    struct ContactSurfaces *contacts; /* (contact count), solver/build_contact.h */
+    SurfaceClosure *closures;         /* (airbag count), nodes in deck order until build_renumber */
+    int32_t *order;                   /* element order: order[k] = record of the k-th element in group order */
 } Builder;
 
 /* A zeroed block that model_free releases; NULL without memory (reported as an environment error). */
@@ -133,5 +134,7 @@ int build_sensors(Builder *builder);                           /* after the moti
 int build_seams(Builder *builder);                             /* seams; after build_shells and lumping */
 int build_seam_nodes(Builder *builder); /* in the model's order; after the motion is taken over */
 void mark_seam_nodes(const Builder *builder, unsigned char *special); /* by build_renumber */
+int build_contacts(Builder *builder);         /* who meets whom, in deck order; after build_shells */
+int build_contact_surfaces(Builder *builder); /* triangles, edges, neighbours; after build_renumber */
 
 #endif

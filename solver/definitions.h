@@ -9,6 +9,7 @@
 #include <stddef.h>
 
 #include "solver/definitions_airbag.h"
+#include "solver/definitions_contact.h"
 #include "solver/definitions_control.h"
 #include "solver/definitions_load.h"
 #include "solver/definitions_material.h"
@@ -65,6 +66,7 @@ typedef struct Definitions {
     LIST(ReferenceBlockDefinition) reference_blocks;
     LIST(ReferenceNodeDefinition) reference_nodes;
     LIST(ReferenceShellDefinition) reference_shells;
+    LIST(ContactDefinition) contacts;
 } Definitions;
 
 void definitions_free(Definitions *definitions);

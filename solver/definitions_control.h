@@ -61,6 +61,13 @@ typedef struct ControlDefinitions {
         Source source;
         bool given;
     } relaxation;
+    struct {
+        double slsfac, rwpnal;
+        int islchk, shlthk, penopt, thkchg, orien, enmass;
+        int ignore;
+        Source source;
+        bool given;
+    } contact;
 } ControlDefinitions;
 
 /* *DATABASE_<name>: output interval of one result. */

@@ -16,6 +16,7 @@
 #include "airbag/jet.h"
 #include "airbag/sensor.h"
 #include "airbag/surface.h"
+#include "contact/contact.h"
 #include "contact/rigid_wall.h"
 #include "elements/law.h"
 #include "elements/link.h"
@@ -218,6 +219,12 @@ typedef struct Model {
     int wall_count;
     RigidWall *walls;      /* contact/rigid_wall.h */
     bool has_moving_walls; /* some wall has a mass: the nodes' momentum moves it */
+    int contact_count;
+    ContactInterface *contacts; /* contact/contact.h */
+    int contact_row;            /* first of node_count rows with the contact forces, one more row of each node */
+    double *contact_inverse;    /* inverse mass that contact feels of each node (node_count); NULL without contact */
+    size_t contact_edge_size;   /* entries of State.contact_sharp */
+    size_t contact_memory_size; /* entries of State.contact_memory */
 
     double end_time, step_scale, step_initial, step_minimum; /* ENDTIM, TSSFAC, DTINIT, DTMIN */
     bool caps_push_rim;                                      /* hole caps give their pressure force to their rim */

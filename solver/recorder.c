@@ -47,6 +47,29 @@ static void watch_fabric(Recorder *recorder, const Model *model, const State *st
     log_write_messages(recorder->log);
 }
 
+/* Contact that was too fast or too deep is told once, with its first place. */
+static void watch_contact(Recorder *recorder, const State *state)
+{
+    const ContactClock *contact = state->contact;
+    if (!contact) return;
+    if (contact->fast > 0 && !recorder->fast_warned)
+        diagnostics_add(
+            recorder->diagnostics, SEVERITY_WARNING, BILLOW_NO_SOURCE, "*CONTACT",
+            "time %.6g: node %lld met a surface faster than one contact thickness in a step; it is held, but "
+            "thicker contact (SST, MST) or a smaller TSSFAC would be safer",
+            contact->fast_time, (long long)contact->fast_node);
+    if (contact->lost > 0 && !recorder->lost_warned)
+        diagnostics_add(
+            recorder->diagnostics, SEVERITY_WARNING, BILLOW_NO_SOURCE, "*CONTACT",
+            "time %.6g: node %lld went deeper into a surface than contact follows and passes through; raise "
+            "SOFSCL or the thickness",
+            contact->lost_time, (long long)contact->lost_node);
+    const bool told = (contact->fast > 0 && !recorder->fast_warned) || (contact->lost > 0 && !recorder->lost_warned);
+    recorder->fast_warned = contact->fast > 0;
+    recorder->lost_warned = contact->lost > 0;
+    if (told) log_write_messages(recorder->log);
+}
+
 static void serve_switch(Recorder *recorder, const Model *model, const State *state, double wall)
 {
     const SenseSwitch value = signals_read_switch(recorder->switch_file);
@@ -140,6 +163,7 @@ static int recorder_emit(void *user, const Model *model, const State *state, con
 {
     Recorder *recorder = user;
     unsigned kinds = recorder->due;
+    watch_contact(recorder, state);
     /* The loop emits without asking when it has failed: that last good state is written in full. */
     if (last || recorder->stop || !recorder->asked) kinds |= schedule_kinds(&recorder->plan);
     if (recorder->want_states) kinds |= SCHEDULE_STATES;

@@ -28,7 +28,7 @@ typedef struct Recorder {
     unsigned due;                            /* of schedule_due */
     bool stopped_by_user;
     bool write_failed; /* results or checkpoint could not be written: the run ends */
-    bool energy_warned, fabric_warned;
+    bool energy_warned, fabric_warned, fast_warned, lost_warned;
     bool seams_watched;
     double seams_from;        /* time of the last cycle if seams_watched: those that tore since are logged */
     double next_look;         /* wall time of the next look at d3kil */

@@ -17,6 +17,19 @@ static void *take(unsigned char *base, size_t *used, size_t bytes)
     return base ? base + start : NULL;
 }
 
+/* What contact remembers, from the byte used on; returns the byte after it. */
+static size_t lay_out_contact(const Model *model, State *state, unsigned char *base, size_t used)
+{
+    size_t nodes = (size_t)model->node_count;
+    state->contact = take(base, &used, sizeof *state->contact);
+    state->contact_searched = take(base, &used, 3 * nodes * sizeof *state->contact_searched);
+    state->contact_load = take(base, &used, nodes * sizeof *state->contact_load);
+    state->contact_sharp = take(base, &used, model->contact_edge_size);
+    state->contact_memory = take(base, &used, model->contact_memory_size * sizeof *state->contact_memory);
+    state->contact_memories = take(base, &used, (size_t)model->contact_count * sizeof *state->contact_memories);
+    return used;
+}
+
 static size_t lay_out(const Model *model, State *state)
 {
     size_t used = 0, nodes = (size_t)model->node_count;
@@ -47,6 +60,7 @@ static size_t lay_out(const Model *model, State *state)
     state->reference =
         take(base, &used, (model->has_reference ? (size_t)model->group_count : 0) * sizeof *state->reference);
     state->reached = take(base, &used, model->liner_waits ? (size_t)model->padded_count : 0);
+    if (model->contact_count > 0) used = lay_out_contact(model, state, base, used);
     return (used + 63) / 64 * 64;
 }
 

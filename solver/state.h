@@ -9,6 +9,17 @@
 #include "airbag/gas.h"
 #include "solver/model.h"
 
+/* Contact, as far as it goes on from cycle to cycle; the rest is in the arrays below. */
+typedef struct ContactClock {
+    double skin;        /* of the last search: pairs farther apart than thickness + skin are not looked at [L] */
+    double half;        /* contact energy up to the half step after t_n */
+    int64_t started;    /* 1 once there was a search */
+    int64_t fast, lost; /* pairs that met faster than a thickness in a step; that went too deep and were let go */
+    int64_t fast_node, lost_node; /* user's ids of the first nodes, 0 none */
+    double fast_time, lost_time;
+    int64_t memory_count;
+} ContactClock;
+
 /* The energy ledger [energy], docs/theory.md section "Energy". */
 typedef struct Energies {
     double kinetic, internal, hourglass, damping, contact;
@@ -73,6 +84,13 @@ typedef struct State {
     unsigned char *reached;    /* 1: the element has been taut, its liner acts (padded_count if Model.liner_waits, else
                                   none); written by the element stage */
     double *seam_torn;         /* time at which each seam tore, -1: it holds (seam_count); written by seams_act */
+    ContactClock *contact;     /* (1 if the model has contact) */
+    double *contact_searched;  /* positions at the last search (node_count x 3) [L] */
+    double *contact_load;      /* load of each node by its contacts, eq. C6 (node_count) */
+    unsigned char *
+        contact_sharp; /* edges that meet edges and nodes that are deep, at the last search (Model.contact_edge_size) */
+    ContactMemory *contact_memory; /* pairs in contact, as of the last cycle written (Model.contact_memory_size) */
+    int32_t *contact_memories;     /* how many of each interface (contact_count) */
 } State;
 
 /* Bytes that a State of this model needs. */

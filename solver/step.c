@@ -156,9 +156,10 @@ static void release(Workspace *w)
     reference_work_free(w->model, &w->reference);
     step_functions_release(w);
     step_jets_release(w);
+    contact_free(w->contact);
 }
 
-static void prepare(Workspace *w)
+static int prepare(Workspace *w)
 {
     const Model *m = w->model;
     for (int i = 0; i < m->constraints.hanging_count; i++)
@@ -174,6 +175,9 @@ static void prepare(Workspace *w)
     w->closed = true;
     /* velocities of nodes that never move stay zero; the view shows so */
     memcpy(w->velocity, w->state->v, 3 * (size_t)m->node_count * sizeof(double));
+    if (m->contact_count == 0) return 0;
+    w->contact = contact_create(m, w->state, w->rows, w->bag_pressure);
+    return w->contact ? 0 : -1;
 }
 
 /* Ends the cycle: the clock moves on. */
@@ -193,6 +197,17 @@ static double lap(double *since)
     return spent;
 }
 
+/* Contact forces at x_n into the corner buffer. */
+static void step_contact(Workspace *w, int thread, int threads, Team *team)
+{
+    if (thread == 0) contact_prepare(w->contact, w->plan.time, w->plan.dt_before, w->plan.dt_next);
+    team_barrier(team);
+    contact_forces(w->contact, thread, threads);
+    team_barrier(team);
+    contact_gather(w->contact, thread, threads);
+    team_barrier(team);
+}
+
 static void loop(void *context, int thread, Team *team)
 {
     Workspace *w = context;
@@ -202,6 +217,8 @@ static void loop(void *context, int thread, Team *team)
     for (;;) {
         step_elements(w, thread, threads);
         times->elements += lap(&since);
+        if (w->contact) contact_planes(w->contact, thread, threads);
+        times->contact += lap(&since);
         team_barrier(team);
         times->waiting += lap(&since);
         if (thread == 0) step_gas(w);
@@ -209,6 +226,8 @@ static void loop(void *context, int thread, Team *team)
         team_barrier(team);
         if (w->failure->failed) break;
         times->waiting += lap(&since);
+        if (w->contact) step_contact(w, thread, threads, team);
+        times->contact += lap(&since);
         if (w->jets) step_jets_push(w, thread, team);
         if (w->plan.implicit_gas) {
             step_gas_pass(w, thread, threads);
@@ -227,7 +246,10 @@ static void loop(void *context, int thread, Team *team)
         }
         if (w->jets) step_jets_count(w, thread, team);
         times->waiting += lap(&since);
+        if (w->contact) contact_follow(w->contact, thread, threads, w->plan.emit ? w->plan.dt_next : 0.0);
+        times->contact += lap(&since);
         if (!w->plan.emit) continue;
+        if (w->contact) team_barrier(team);
         if (thread == 0) step_emit(w);
         team_barrier(team);
         times->output += lap(&since);
@@ -276,11 +298,16 @@ int solver_run(const Model *model, State *state, int threads, const RunHooks *ho
         release(&w);
         return -1;
     }
-    prepare(&w);
+    if (prepare(&w)) {
+        step_fail(&w, "use a smaller mesh or a machine with more memory", "no memory for contact");
+        release(&w);
+        return -1;
+    }
     int count = threads < 1 ? 1 : threads > BILLOW_MAX_THREADS ? BILLOW_MAX_THREADS : threads;
     if (team_run(&count, loop, &w)) step_fail(&w, "use fewer threads", "no memory for the threads");
     if (failure->failed) emit_failed(&w);
     times->total = wall_clock() - start;
+    if (w.contact) times->search = w.contact->search_seconds;
     release(&w);
     return failure->failed ? -1 : 0;
 }

@@ -16,8 +16,10 @@ typedef struct StepView {
     const double *part_kinetic;  /* kinetic energy of each part at t_n (part_count) */
     const double *part_momentum; /* (part_count x 3) */
     const double *wall_force;    /* force of each wall on the nodes at t_n and its normal part (wall_count x 4) */
-    double element_step;         /* stable step of the elements before TSSFAC */
-    int critical_element;        /* deck-order index of the element with the smallest step, -1 none */
+    const double *contact;   /* contact forces at t_n, first three of eight (node_count x 8); NULL without contact */
+    const double *resultant; /* force on side A of each contact at t_n (contact_count x 3); NULL without contact */
+    double element_step;     /* stable step of the elements before TSSFAC */
+    int critical_element;    /* deck-order index of the element with the smallest step, -1 none */
 } StepView;
 
 /* Why a run stopped by itself. */
@@ -40,7 +42,8 @@ typedef struct RunHooks {
 
 /* Wall seconds by stage, of thread 0; output is the time inside the hooks. */
 typedef struct StageTimes {
-    double elements, gas, nodes, special, waiting, output, total;
+    double elements, gas, contact, nodes, special, waiting, output, total;
+    double search; /* share of contact */
 } StageTimes;
 
 /* Runs from state to the end time (or stop, or failure) on the given number of threads. Returns 0, or -1 with *failure

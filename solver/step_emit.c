@@ -79,6 +79,10 @@ static int find_critical(Workspace *w)
 void step_emit(Workspace *w)
 {
     const Model *m = w->model;
+    if (w->contact) {
+        contact_sum(w->contact);
+        contact_store(w->contact);
+    }
     if (!w->failure->failed) step_close_energies(w);
     sum_parts(w);
     if (m->wall_count > 0) step_walls_forces(w);
@@ -89,6 +93,8 @@ void step_emit(Workspace *w)
                      .part_kinetic = w->part_kinetic,
                      .part_momentum = w->part_momentum,
                      .wall_force = w->wall_force,
+                     .contact = w->contact ? w->contact->corner : NULL,
+                     .resultant = w->contact ? w->contact->resultant : NULL,
                      .element_step = w->element_step,
                      .critical_element = find_critical(w)};
     w->plan.stop = w->hooks->emit(w->hooks->user, m, w->state, &view, w->plan.last) != 0;

@@ -61,6 +61,11 @@ void step_close_energies(Workspace *w)
     e->airbag_half += after * t.bag_after;
     e->external_half += after * t.load_after + (1.0 - passed) * (t.reaction + t.support_after);
     e->mass_damping += (1.0 - passed) * t.damping;
+    if (w->contact) {
+        double *half = &w->state->contact->half; /* what contact forces take from the nodes is theirs */
+        e->contact = *half - before * w->contact->power;
+        *half = e->contact - after * w->contact->power_after;
+    }
     e->kinetic = t.kinetic;
     e->internal = e->hourglass = 0.0;
     for (int p = 0; p < m->part_count; p++) {

@@ -173,6 +173,9 @@ void step_gas(Workspace *w)
 {
     const Model *m = w->model;
     Clock *clock = w->state->clock;
+    if (w->contact) contact_sum(w->contact);
+    if (w->contact && w->contact->out_of_memory)
+        step_fail(w, "use a smaller mesh or a machine with more memory", "no memory for the pairs in contact");
     if (!w->closed) step_close_energies(w);
     if (w->failure->failed) return;
     w->plan.time = clock->time;

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "airbag/ray_tree.h"
+#include "contact/contact_loop.h"
 #include "elements/kernels.h"
 #include "solver/model.h"
 #include "solver/reference_work.h"
@@ -137,6 +138,7 @@ typedef struct Workspace {
     bool general;                       /* body classes or stagnation pressure: the general node loop */
     bool closed;                        /* energies of the last cycle are in the ledger */
     double element_step;                /* stable step of the elements before TSSFAC */
+    ContactLoop *contact;               /* NULL if the scene has none */
     CyclePlan plan;
     JetWork *jets;     /* (jet_count), NULL without jets */
     JetSums *jet_sums; /* (jet_chunk_count) */

@@ -12,6 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "tests/contact_scene.h"
+
 static bool select_rim(const void *radius, const double x[3])
 {
     return scene_select_radius(radius, x);
@@ -189,6 +191,7 @@ static const struct DeterminismCase {
              {"quads, Mooney-Rivlin", make_mooney_quads, false},
              {"rigid bodies", make_bounce, false},
              {"walls and cables", make_walls, false},
+             {"contact", scene_crumple, false},
              {"driver bag", NULL, false}};
 enum { CASE_COUNT = sizeof cases / sizeof cases[0] };
 
@@ -201,7 +204,7 @@ static int print_hashes(int threads)
             cases[i].make(&scene);
         else
             scene_driver_bag(&scene, 10);
-        VerifyOptions options = {.threads = threads, .one_point = cases[i].one_point, .stop = 500};
+        VerifyOptions options = {.threads = threads, .one_point = cases[i].one_point, .stop = 500, .energy_limit = 1e9};
         int status = scene_ok(&scene) ? verify_build(&run, scene.deck.text, scene.deck.length, &options) : -1;
         scene_free(&scene);
         if (status || verify_loop(&run)) return 1;

@@ -44,7 +44,7 @@ static void test_control(void **state)
     assert_int_equal(k->accuracy.inn, 4);
     assert_int_equal(k->bulk_viscosity.type, -2);
     assert_int_equal(k->shell.istupd, 1);
-    assert_int_equal(count_notes(&c, "is not used"), 2);
+    assert_int_equal(count_notes(&c, "is not used"), 1);
     assert_int_equal(count_notes(&c, "ISTUPD"), 1);
     close_case(&c);
 }

@@ -89,11 +89,33 @@ static void test_unsupported(void **state)
     expect_code(program, BILLOW_EXIT_NORMAL);
 }
 
+/* Contact does not act in the phase: a deck that wants both is refused. */
+static void test_contact(void **state)
+{
+    Program *program = *state;
+    Scene scene = {.deck.exact = true};
+    SceneText *deck = &scene.deck;
+    scene_add_rectangle(&scene.mesh, 1, SCENE_QUADS, 2, 2, 1, 1);
+    scene_begin(deck, "sheet that meets itself", 1e-3, 0.9);
+    scene_write_part(deck, 1, 1, 1, "sheet");
+    scene_write_section(deck, 1, 9, 1e-3);
+    scene_write_elastic(deck, 1, 800, 2e8, 0.3);
+    scene_print(deck, "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n0,0,5\n\n\n");
+    scene_end(deck, &scene.mesh);
+    write_scene(program, "layers.k", &scene);
+    program_run(program, "check layers.k --relax");
+    expect_code(program, BILLOW_EXIT_INPUT);
+    assert_non_null(strstr(program->err, "contact takes no part in the equilibrium before the run"));
+    program_run(program, "check layers.k");
+    expect_code(program, BILLOW_EXIT_NORMAL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_same_bits, open_program, close_program),
         cmocka_unit_test_setup_teardown(test_unsupported, open_program, close_program),
+        cmocka_unit_test_setup_teardown(test_contact, open_program, close_program),
     };
     return cmocka_run_group_tests_name("relaxation from the command line", tests, NULL, NULL);
 }

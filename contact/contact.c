@@ -1,0 +1,435 @@
+/* Contact in the time loop: when to search, the work of the threads, sums (docs/theory.md, Contact). */
+#define _POSIX_C_SOURCE 200809L
+#include <time.h>
+
+#include "contact/contact_grid.h"
+#include "contact/contact_law.h"
+#include "solver/memory.h"
+
+/* Steps at the largest speed that a search shall last. */
+#define SKIN_STEPS 24.0
+
+static double clock_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int list_create(ContactList *list, int owners)
+{
+    list->owner_count = owners;
+    list->chunk_count = (owners + CONTACT_CHUNK - 1) / CONTACT_CHUNK;
+    list->sums = memory_alloc((size_t)list->chunk_count + 1, sizeof *list->sums);
+    list->passages = memory_alloc((size_t)list->chunk_count + 1, sizeof *list->passages);
+    list->memory = memory_alloc((size_t)owners * CONTACT_SLOTS + 1, sizeof *list->memory);
+    return list->sums && list->passages && list->memory ? 0 : -1;
+}
+
+static void pairs_free(ContactPairs *pairs)
+{
+    memory_free(pairs->start);
+    memory_free(pairs->other);
+    memory_free(pairs->wake);
+    memory_free(pairs->slot);
+}
+
+static void list_free(ContactList *list)
+{
+    pairs_free(&list->pairs);
+    pairs_free(&list->before);
+    memory_free(list->memory);
+    memory_free(list->forces);
+    memory_free(list->sums);
+    memory_free(list->passages);
+}
+
+void contact_free(ContactLoop *loop)
+{
+    if (!loop) return;
+    for (int i = 0; loop->runs && i < loop->model->contact_count; i++) {
+        list_free(&loop->runs[i].faces);
+        list_free(&loop->runs[i].edges);
+        memory_free(loop->runs[i].plane);
+        memory_free(loop->runs[i].used);
+        memory_free(loop->runs[i].calm);
+    }
+    contact_grid_free(loop->grid);
+    memory_free(loop->grid);
+    memory_free(loop->box);
+    memory_free(loop->height);
+    memory_free(loop->room);
+    memory_free(loop->around);
+    memory_free(loop->runs);
+    memory_free(loop->resultant);
+    memory_free(loop->motions);
+    memory_free(loop);
+}
+
+static double largest_speed(const Model *m, const double *v)
+{
+    double largest = 0.0;
+    for (int n = 0; n < m->moving_count; n++) {
+        double square = vector3_dot(v + 3 * (ptrdiff_t)n, v + 3 * (ptrdiff_t)n);
+        largest = square > largest ? square : largest;
+    }
+    return sqrt(largest);
+}
+
+/* Has a node moved by half the skin since the last search? */
+static bool has_moved(const Model *m, const State *state)
+{
+    double half = 0.5 * state->contact->skin;
+    for (int n = 0; n < m->moving_count; n++) {
+        double square = 0.0;
+        for (int k = 0; k < 3; k++) {
+            double way = state->x[3 * (ptrdiff_t)n + k] - state->contact_searched[3 * (ptrdiff_t)n + k];
+            square += way * way;
+        }
+        if (square > half * half) return true;
+    }
+    return false;
+}
+
+/* Memories of the State go to their pairs after the first search. */
+static void restore_memories(ContactLoop *loop)
+{
+    for (int i = 0; i < loop->model->contact_count; i++) {
+        ContactRun *run = &loop->runs[i];
+        const ContactMemory *stored = loop->state->contact_memory + run->contact->first_memory;
+        for (int k = 0; k < loop->state->contact_memories[i]; k++) {
+            bool edge = stored[k].pair[0] >= run->contact->node_count;
+            ContactPairs *pairs = edge ? &run->edges.pairs : &run->faces.pairs;
+            int owner = edge ? stored[k].pair[0] - run->contact->node_count : stored[k].pair[0];
+            for (int32_t p = pairs->start[owner]; p < pairs->start[owner + 1]; p++)
+                if (pairs->other[p] == stored[k].pair[1])
+                    contact_keep(edge ? &run->edges : &run->faces, owner, p, &stored[k]);
+        }
+    }
+}
+
+/* (w dt)^2 that elements may have, and what they and the gas leave of the limit 4 in their plane (eq. C5). */
+static double stiffest_elements(const Model *m)
+{
+    return 4.0 * m->step_scale * m->step_scale;
+}
+
+static double room_left(const Model *m)
+{
+    double room = 3.8 - stiffest_elements(m);
+    return room < 0.2 ? 0.2 : room;
+}
+
+/* Half of it is for the springs of friction, if there is any. */
+static double room_for_sliding(const Model *m)
+{
+    bool rubs = false;
+    for (int i = 0; i < m->contact_count; i++)
+        rubs = rubs || m->contacts[i].static_friction > 0.0 || m->contacts[i].dynamic_friction > 0.0;
+    return rubs ? 0.5 * room_left(m) : 0.0;
+}
+
+static void search(ContactLoop *loop)
+{
+    double since = clock_seconds();
+    contact_fill_room(loop, loop->state->contact_searched, stiffest_elements(loop->model),
+                      0.5 * room_left(loop->model));
+    for (int i = 0; i < loop->model->contact_count; i++)
+        if (contact_find_pairs(loop, &loop->runs[i], loop->state->contact_searched)) loop->out_of_memory = true;
+    loop->searches++;
+    loop->search_due = false;
+    loop->search_seconds += clock_seconds() - since;
+}
+
+ContactLoop *contact_create(const Model *model, State *state, double *rows, const double *pressure)
+{
+    ContactLoop *loop = memory_alloc(1, sizeof *loop);
+    if (!loop) return NULL;
+    loop->model = model;
+    loop->state = state;
+    loop->rows = rows;
+    loop->pressure = pressure;
+    loop->corner = rows + CONTACT_ROW * (ptrdiff_t)model->contact_row;
+    loop->runs = memory_alloc((size_t)model->contact_count, sizeof *loop->runs);
+    loop->grid = memory_alloc(1, sizeof *loop->grid);
+    loop->motion_count = (model->moving_count + CONTACT_NODE_CHUNK - 1) / CONTACT_NODE_CHUNK;
+    loop->motions = memory_alloc((size_t)loop->motion_count + 1, sizeof *loop->motions);
+    loop->room = memory_alloc(6 * (size_t)model->node_count, sizeof(double));
+    loop->around = memory_alloc((size_t)model->node_count, sizeof(double));
+    loop->resultant = memory_alloc(3 * (size_t)model->contact_count, sizeof(double));
+    int status = loop->runs && loop->grid && loop->motions && loop->resultant && loop->room && loop->around ? 0 : -1;
+    for (int i = 0; !status && i < model->contact_count; i++) {
+        loop->runs[i].contact = &model->contacts[i];
+        loop->runs[i].force = loop->resultant + 3 * (ptrdiff_t)i;
+        size_t triangles = (size_t)model->contacts[i].triangle_count + 1;
+        loop->runs[i].plane = memory_alloc(4 * triangles, sizeof(double));
+        loop->runs[i].used = memory_alloc(triangles, 1);
+        loop->runs[i].calm = memory_alloc(triangles, 1);
+        status = list_create(&loop->runs[i].faces, model->contacts[i].node_count) |
+                 list_create(&loop->runs[i].edges, model->contacts[i].edge_count);
+        if (!loop->runs[i].plane || !loop->runs[i].used || !loop->runs[i].calm) status = -1;
+    }
+    if (!status && state->contact->started) {
+        loop->restored = true;
+        search(loop);
+        loop->restored = false;
+        restore_memories(loop);
+        loop->search_due = has_moved(model, state);
+        for (int n = 0; n < model->node_count; n++)
+            loop->corner[CONTACT_ROW * (ptrdiff_t)n + 3] = state->contact_load[n];
+    } else {
+        loop->search_due = true;
+    }
+    if (status || loop->out_of_memory) {
+        contact_free(loop);
+        return NULL;
+    }
+    loop->fastest = largest_speed(model, state->v);
+    return loop;
+}
+
+/* A skin that lasts for a number of steps, between a part of the thickness and a part of the elements. */
+static double choose_skin(const ContactLoop *loop)
+{
+    const Model *m = loop->model;
+    double thickest = 0.0, side = INFINITY, skin = SKIN_STEPS * loop->fastest * loop->step.next;
+    for (int i = 0; i < m->contact_count; i++) {
+        thickest = fmax(thickest, m->contacts[i].thickest);
+        side = m->contacts[i].longest_side > 0.0 ? fmin(side, m->contacts[i].longest_side) : side;
+    }
+    double least = thickest > 0.0 ? thickest : 0.05 * side, most = 0.5 * side;
+    return skin < least ? least : skin > most ? (most > least ? most : least) : skin;
+}
+
+static void set_thinness(ContactLoop *loop)
+{
+    const Model *m = loop->model;
+    for (int i = 0; i < m->contact_count; i++) {
+        ContactRun *run = &loop->runs[i];
+        const ContactInterface *c = run->contact;
+        run->thinness = 1.0;
+        run->alive = loop->step.time >= c->birth && loop->step.time < c->death;
+        if (c->thickness_curve < 0) continue;
+        const Curve *curve = &m->curves[c->thickness_curve];
+        double most = 0.0, now = curve_value(curve, loop->step.time);
+        for (int k = 0; k < curve->count; k++) most = curve->y[k] > most ? curve->y[k] : most;
+        run->thinness = most > 0.0 && now > 0.0 ? now / most : 0.0;
+    }
+}
+
+void contact_prepare(ContactLoop *loop, double time, double before, double next)
+{
+    double longer = before > next ? before : next;
+    loop->step = (ContactStep){.time = time, .before = before, .next = next, .longer = longer};
+    loop->step.near = 2.0 * loop->fastest * longer;
+    loop->step.ahead = loop->motion + 0.5 * loop->step.near + 2.0 * loop->fastest * longer;
+    set_thinness(loop);
+    if (!loop->search_due) return;
+    loop->state->contact->skin = choose_skin(loop);
+    memcpy(loop->state->contact_searched, loop->state->x, 3 * (size_t)loop->model->node_count * sizeof(double));
+    search(loop);
+    loop->state->contact->started = 1;
+}
+
+void contact_planes(ContactLoop *loop, int thread, int threads)
+{
+    for (int i = 0; i < loop->model->contact_count; i++) {
+        int64_t count = loop->runs[i].contact->triangle_count;
+        contact_fill_planes(&loop->runs[i], loop->state->x, (int)(count * thread / threads),
+                            (int)(count * (thread + 1) / threads), false);
+    }
+}
+
+static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run)
+{
+    const ContactInterface *c = run->contact;
+    return (ContactLaw){.model = loop->model,
+                        .rows = loop->rows,
+                        .pressure = loop->pressure,
+                        .v = loop->state->v,
+                        .inverse = loop->model->contact_inverse,
+                        .room = loop->room,
+                        .corner = loop->corner,
+                        .before = loop->step.before,
+                        .next = loop->step.next,
+                        .sliding = room_for_sliding(loop->model),
+                        .damping = c->damping,
+                        .static_friction = c->static_friction,
+                        .dynamic_friction = c->dynamic_friction,
+                        .decay = c->decay,
+                        .deepest =
+                            10.0 * c->thickest > 0.5 * c->longest_side ? 10.0 * c->thickest : 0.5 * c->longest_side};
+}
+
+/* A contact that is not born yet, or is dead, forgets. */
+static void sleep_list(ContactList *list)
+{
+    if (list->pairs.count) memset(list->pairs.slot, 0, list->pairs.count);
+    memset(list->memory, 0, (size_t)list->owner_count * CONTACT_SLOTS * sizeof *list->memory);
+    for (int c = 0; c < list->chunk_count; c++) list->sums[c] = (ContactSums){0};
+}
+
+void contact_forces(ContactLoop *loop, int thread, int threads)
+{
+    for (int i = 0; i < loop->model->contact_count; i++) {
+        ContactRun *run = &loop->runs[i];
+        if (!run->alive) {
+            if (thread == 0) sleep_list(&run->faces), sleep_list(&run->edges);
+            continue;
+        }
+        ContactLaw law = law_of(loop, run);
+        int chunks = run->faces.chunk_count, all = chunks + run->edges.chunk_count;
+        /* chunks in turn: neighbouring ones are busy alike */
+        for (int c = thread; c < all; c += threads) {
+            if (c < chunks)
+                contact_meet_faces(loop, run, &law, c);
+            else
+                contact_meet_edges(loop, run, &law, c - chunks);
+        }
+    }
+}
+
+/* Adds what the forces of one list give to the nodes [first, end), in the list's order. */
+static void gather_list(ContactLoop *loop, const ContactList *list, int32_t first, int32_t end)
+{
+    for (int c = 0; c < list->chunk_count; c++) {
+        const ContactForce *force = list->forces + list->pairs.start[c * CONTACT_CHUNK];
+        for (int k = 0; k < list->sums[c].count; k++, force++)
+            for (int i = 0; i < 4; i++) {
+                int32_t node = force->node[i];
+                double weight = force->weight[i], *to = loop->corner + CONTACT_ROW * (ptrdiff_t)node;
+                if (node < first || node >= end) continue;
+                for (int a = 0; a < 3; a++) to[a] += weight * force->force[a];
+                to[3] += fabs(weight) * force->load;
+            }
+    }
+}
+
+void contact_gather(ContactLoop *loop, int thread, int threads)
+{
+    int64_t nodes = loop->model->node_count;
+    int32_t first = (int32_t)(nodes * thread / threads), end = (int32_t)(nodes * (thread + 1) / threads);
+    for (int i = 0; thread == 0 && i < loop->model->contact_count; i++)
+        if (loop->runs[i].alive) contact_pass_on(loop, &loop->runs[i]);
+    memset(loop->corner + CONTACT_ROW * (ptrdiff_t)first, 0, CONTACT_ROW * (size_t)(end - first) * sizeof(double));
+    for (int i = 0; i < loop->model->contact_count; i++) {
+        if (!loop->runs[i].alive) continue;
+        gather_list(loop, &loop->runs[i].faces, first, end);
+        gather_list(loop, &loop->runs[i].edges, first, end);
+    }
+}
+
+/* Share of each element's nodes that are in contact, for leakage (eq. G48). */
+static void share_blocked(ContactLoop *loop, int thread, int threads)
+{
+    const Model *m = loop->model;
+    int64_t count = m->element_count;
+    for (int e = (int)(count * thread / threads), end = (int)(count * (thread + 1) / threads); e < end; e++) {
+        const int32_t *node = m->element_node + 4 * (ptrdiff_t)e;
+        int corners = node[3] == node[2] ? 3 : 4, touching = 0;
+        for (int k = 0; k < corners; k++) touching += loop->corner[CONTACT_ROW * (ptrdiff_t)node[k] + 3] > 0.0;
+        loop->state->contact_share[e] = (double)touching / corners;
+    }
+}
+
+void contact_follow(ContactLoop *loop, int thread, int threads, double pending)
+{
+    const double *x = loop->state->x, *v = loop->state->v, *from = loop->state->contact_searched;
+    int first = (int)((int64_t)loop->motion_count * thread / threads),
+        end = (int)((int64_t)loop->motion_count * (thread + 1) / threads);
+    for (int c = first; c < end; c++) {
+        ContactMotion sum = {0};
+        int last = (c + 1) * CONTACT_NODE_CHUNK < loop->model->moving_count ? (c + 1) * CONTACT_NODE_CHUNK
+                                                                            : loop->model->moving_count;
+        for (int n = c * CONTACT_NODE_CHUNK; n < last; n++) {
+            const double *vn = v + 3 * (ptrdiff_t)n, *f = loop->corner + CONTACT_ROW * (ptrdiff_t)n;
+            double speed = 0.0, way = 0.0, power = 0.0;
+            for (int k = 0; k < 3; k++) {
+                double d = x[3 * (ptrdiff_t)n + k] + pending * vn[k] - from[3 * (ptrdiff_t)n + k];
+                speed += vn[k] * vn[k];
+                way += d * d;
+                power += f[k] * vn[k];
+            }
+            sum.power += power;
+            sum.fastest = speed > sum.fastest ? speed : sum.fastest;
+            sum.moved = way > sum.moved ? way : sum.moved;
+        }
+        loop->motions[c] = sum;
+    }
+    if (loop->model->blockage) share_blocked(loop, thread, threads);
+    if (thread == 0) loop->pending = true;
+}
+
+/* Counts what happened in a chunk; of the first the node and the time are kept. */
+static void note(int64_t *total, int64_t *node, double *time, int count, int id, const ContactLoop *loop)
+{
+    if (count > 0 && *total == 0) {
+        *node = id;
+        *time = loop->step.time;
+    }
+    *total += count;
+}
+
+/* Sums of the lists in chunk order; the first pairs that were lost or too fast are remembered for the log. */
+static void sum_list(ContactLoop *loop, ContactRun *run, const ContactList *list)
+{
+    ContactClock *clock = loop->state->contact;
+    for (int c = 0; c < list->chunk_count; c++) {
+        const ContactSums *s = &list->sums[c];
+        for (int k = 0; k < 3; k++) run->force[k] += s->force[k];
+        loop->power += s->power;
+        note(&clock->fast, &clock->fast_node, &clock->fast_time, s->fast, loop->model->node_id[s->fast_node], loop);
+        note(&clock->lost, &clock->lost_node, &clock->lost_time, s->lost, loop->model->node_id[s->lost_node], loop);
+    }
+}
+
+void contact_sum(ContactLoop *loop)
+{
+    double fastest = 0.0, moved = 0.0, half = 0.5 * loop->state->contact->skin;
+    if (!loop->pending) return;
+    loop->pending = false;
+    loop->power = loop->power_after = 0.0;
+    for (int i = 0; i < loop->model->contact_count; i++) {
+        ContactRun *run = &loop->runs[i];
+        for (int k = 0; k < 3; k++) run->force[k] = 0.0;
+        if (!run->alive) continue;
+        sum_list(loop, run, &run->faces);
+        sum_list(loop, run, &run->edges);
+    }
+    for (int c = 0; c < loop->motion_count; c++) {
+        const ContactMotion *m = &loop->motions[c];
+        loop->power_after += m->power;
+        fastest = m->fastest > fastest ? m->fastest : fastest;
+        moved = m->moved > moved ? m->moved : moved;
+    }
+    loop->fastest = sqrt(fastest);
+    loop->motion += loop->fastest * loop->step.next;
+    loop->search_due = loop->search_due || moved > half * half;
+}
+
+static void store_list(const ContactList *list, int base, ContactMemory *to, int capacity, int *count)
+{
+    for (int i = 0; list->pairs.start && i < list->owner_count; i++)
+        for (int32_t p = list->pairs.start[i]; p < list->pairs.start[i + 1] && *count < capacity; p++) {
+            const ContactMemory *m = contact_recall(list, i, p);
+            if (!m) continue;
+            to[*count] = *m;
+            to[*count].pair[0] = base + i;
+            to[(*count)++].pair[1] = list->pairs.other[p];
+        }
+}
+
+void contact_store(ContactLoop *loop)
+{
+    for (int i = 0; i < loop->model->contact_count; i++) {
+        const ContactRun *run = &loop->runs[i];
+        ContactMemory *to = loop->state->contact_memory + run->contact->first_memory;
+        int count = 0, capacity = run->contact->memory_capacity;
+        store_list(&run->faces, 0, to, capacity, &count);
+        store_list(&run->edges, run->contact->node_count, to, capacity, &count);
+        memset(to + count, 0, (size_t)(capacity - count) * sizeof *to);
+        loop->state->contact_memories[i] = count;
+    }
+    for (int n = 0; n < loop->model->node_count; n++)
+        loop->state->contact_load[n] = loop->corner[CONTACT_ROW * (ptrdiff_t)n + 3];
+}

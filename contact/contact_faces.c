@@ -1,0 +1,209 @@
+/* Nodes against triangles: the closest point of each candidate, which of them count, on which side the node is, and
+ * what it is pushed by. */
+#include "contact/contact_geometry.h"
+#include "contact/contact_law.h"
+
+enum { MOST_NEAR = 32 }; /* triangles near one node that are looked at in one cycle */
+
+/* One candidate of a node that is near or in contact. */
+typedef struct NearFace {
+    ClosestPoint at;
+    int32_t pair; /* place in the list */
+    int32_t triangle;
+    bool rim; /* the closest point is on the surface's rim */
+    bool kept;
+} NearFace;
+
+/* Does triangle g have all the corners on which f's closest point lies? */
+static bool shares_feature(const NearFace *f, const NearFace *g)
+{
+    for (int k = 0; k < 3; k++) {
+        int32_t node = f->at.corner[k];
+        if ((f->at.feature & 1 << k) && g->at.corner[0] != node && g->at.corner[1] != node && g->at.corner[2] != node)
+            return false;
+    }
+    return true;
+}
+
+/* Of triangles that share the edge or corner closest to the node, the nearest counts; if they are equally far, the one
+ * that faces the node most. */
+static bool is_nearer(const NearFace *g, const NearFace *f, bool first)
+{
+    if (g->at.distance < f->at.distance * (1.0 - 1e-9)) return true;
+    if (g->at.distance > f->at.distance * (1.0 + 1e-9)) return false;
+    if (g->at.feature == 7) return true;
+    double a = fabs(g->at.height), b = fabs(f->at.height);
+    return a > b || (a == b && first);
+}
+
+static void keep_nearest(NearFace *near, int count)
+{
+    for (int i = 0; i < count; i++) {
+        near[i].kept = true;
+        for (int j = 0; j < count && near[i].kept && near[i].at.feature != 7; j++)
+            if (j != i && shares_feature(&near[i], &near[j]) && is_nearer(&near[j], &near[i], j < i))
+                near[i].kept = false;
+    }
+}
+
+static bool touch_each_other(const NearFace *f, const NearFace *g)
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            if (f->at.corner[i] == g->at.corner[j]) return true;
+    return false;
+}
+
+/* A node that has slid from one triangle onto the next keeps what it remembers. */
+static void inherit(unsigned char *slot, const NearFace *near, int count, int heir)
+{
+    for (int i = 0; i < count; i++) {
+        if (near[i].kept || slot[near[i].pair] == 0 || !touch_each_other(&near[i], &near[heir])) continue;
+        slot[near[heir].pair] = slot[near[i].pair];
+        slot[near[i].pair] = 0;
+        return;
+    }
+}
+
+/* Adds the normal of triangle t, weighted at one of its corners or, corner -1, of unit length. */
+static void add_normal(const ContactInterface *c, const double *x, int t, int32_t corner, double sum[3])
+{
+    const int32_t *node = c->triangle + 3 * (ptrdiff_t)t;
+    int first = corner == node[1] ? 1 : corner == node[2] ? 2 : 0;
+    const double *p = x + 3 * (ptrdiff_t)node[first];
+    double u[3], w[3], n[3];
+    vector3_subtract(x + 3 * (ptrdiff_t)node[(first + 1) % 3], p, u);
+    vector3_subtract(x + 3 * (ptrdiff_t)node[(first + 2) % 3], p, w);
+    vector3_cross(u, w, n);
+    double square = vector3_dot(n, n), scale = vector3_dot(u, u) * vector3_dot(w, w);
+    if (!(square > 0.0)) return;
+    scale = corner < 0 ? 1.0 / sqrt(square) : 1.0 / scale;
+    for (int k = 0; k < 3; k++) sum[k] += scale * n[k];
+}
+
+/* Which side of the surface the node is on, seen from the edge or corner closest to it: that of the mean normal of the
+ * triangles there, which no fold however sharp turns over (eq. C1a). 0: on it. */
+static int side_of_feature(const ContactInterface *c, const double *x, const NearFace *f, double n[3])
+{
+    n[0] = n[1] = n[2] = 0.0;
+    int corners = 0, place = 0;
+    for (int k = 0; k < 3; k++) {
+        corners += f->at.feature >> k & 1;
+        if (f->at.feature >> k & 1) place = k;
+    }
+    if (corners == 1) {
+        int32_t node = f->at.corner[place];
+        for (int32_t k = c->fan_start[node]; k < c->fan_start[node + 1]; k++) add_normal(c, x, c->fan[k], node, n);
+    } else {
+        int other = c->neighbour[3 * f->triangle + (f->at.feature == 3 ? 2 : f->at.feature == 5 ? 1 : 0)];
+        add_normal(c, x, f->triangle, -1, n);
+        if (other >= 0) add_normal(c, x, other, -1, n);
+    }
+    vector3_normalize(n);
+    double height = vector3_dot(n, f->at.toward);
+    return (height > 0.0) - (height < 0.0);
+}
+
+/* Gap and direction by the side remembered, or found: that of a step ago, as far as the relative velocity tells. False
+ * if the pair is none: it has gone round a rim, or its side is not known yet. */
+static bool take_side(const ContactLaw *law, const ContactInterface *c, const double *x, NearFace *f, ContactMemory *m,
+                      ContactTouch *t)
+{
+    bool inside = f->at.feature == 7 || f->at.distance == 0.0;
+    double mean[3];
+    int now = inside ? (f->at.height > 0.0) - (f->at.height < 0.0) : side_of_feature(c, x, f, mean);
+    double before = f->at.height - law->before * vector3_dot(t->speed, f->at.normal);
+    t->side = m->side ? m->side : f->at.feature != 7 ? now : before > 0.0 ? 1 : before < 0.0 ? -1 : now;
+    if (t->side == 0) return false;
+    if (inside) {
+        t->gap = t->side * f->at.height;
+        for (int k = 0; k < 3; k++) t->direction[k] = t->side * f->at.normal[k];
+        return true;
+    }
+    if (f->rim && m->side && now != m->side && now != 0) return false;
+    if (f->rim || now == t->side || now == 0) {
+        t->gap = f->at.distance;
+        for (int k = 0; k < 3; k++) t->direction[k] = f->at.toward[k] / f->at.distance;
+    } else { /* behind: r / |r| would turn over where the node comes through */
+        t->gap = t->side * vector3_dot(mean, f->at.toward);
+        for (int k = 0; k < 3; k++) t->direction[k] = t->side * mean[k];
+    }
+    return true;
+}
+
+/* One node: all its candidates that are awake. */
+static void meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, ContactSums *sums,
+                      ContactForce *forces)
+{
+    const ContactInterface *c = run->contact;
+    const ContactPairs *pairs = &run->faces.pairs;
+    const double *x = loop->state->x, *at = x + 3 * (ptrdiff_t)c->node[i];
+    const double *v = law->v + 3 * (ptrdiff_t)c->node[i];
+    /* no pair closes faster than this node and the fastest one together */
+    double near_step = (vector3_norm(v) + loop->fastest) * loop->step.longer;
+    NearFace near[MOST_NEAR];
+    int count = 0;
+    for (int32_t p = pairs->start[i]; p < pairs->start[i + 1]; p++) {
+        if (pairs->wake[p] > loop->step.ahead) continue;
+        NearFace *f = &near[count];
+        double thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[pairs->other[p]]), bound;
+        double reach = thickness + near_step;
+        const double *plane = run->plane + 4 * (ptrdiff_t)pairs->other[p];
+        double height = plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] - plane[3];
+        if (pairs->slot[p]) {
+            reach += law->deepest;
+        } else if (fabs(height) > reach) {
+            pairs->wake[p] = loop->motion + 0.5 * (fabs(height) - thickness);
+            continue;
+        }
+        f->pair = p;
+        f->triangle = pairs->other[p];
+        memcpy(f->at.corner, c->triangle + 3 * (ptrdiff_t)f->triangle, sizeof f->at.corner);
+        if (closest_point(&f->at, at, x, reach, &bound) && count < MOST_NEAR - 1) {
+            count++;
+            continue;
+        }
+        contact_forget(&run->faces, i, p);
+        pairs->wake[p] = loop->motion + 0.5 * (bound - thickness);
+    }
+    if (count == 0) return;
+    keep_nearest(near, count);
+    for (int k = 0; k < count; k++)
+        if (near[k].kept && pairs->slot[near[k].pair] == 0) inherit(pairs->slot, near, count, k);
+    for (int k = 0; k < count; k++) {
+        NearFace *f = &near[k];
+        ContactMemory fresh = {0}, *m = contact_recall(&run->faces, i, f->pair);
+        if (!m) m = &fresh;
+        const unsigned char *rim = c->corner_rim + 3 * (ptrdiff_t)f->triangle;
+        ContactTouch t = {.node = {c->node[i], f->at.corner[0], f->at.corner[1], f->at.corner[2]},
+                          .weight = {1.0, -f->at.weight[0], -f->at.weight[1], -f->at.weight[2]},
+                          .thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[f->triangle]),
+                          .stiffness = c->stiffness[c->node_side[i] == CONTACT_SIDE_B]};
+        pairs->wake[f->pair] = 0.0;
+        f->rim = f->at.feature != 7;
+        for (int a = 0; a < 3; a++) f->rim = f->rim && (!(f->at.feature & 1 << a) || rim[a]);
+        if (f->kept) contact_speed(law, &t);
+        if (!f->kept || !take_side(law, c, x, f, m, &t)) {
+            contact_forget(&run->faces, i, f->pair);
+            continue;
+        }
+        ContactForce *out = &forces[sums->count];
+        int counts = contact_push(law, &t, m, out, sums);
+        if (m != &fresh && m->side == 0) pairs->slot[f->pair] = 0;
+        if (m == &fresh && m->side != 0) contact_keep(&run->faces, i, f->pair, m);
+        if (!counts) continue;
+        sums->count++;
+        double sign = c->node_side[i] & CONTACT_SIDE_A ? 1.0 : -1.0;
+        for (int a = 0; a < 3; a++) sums->force[a] += sign * out->force[a];
+    }
+}
+
+void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int chunk)
+{
+    ContactList *list = &run->faces;
+    int first = chunk * CONTACT_CHUNK,
+        end = first + CONTACT_CHUNK < list->owner_count ? first + CONTACT_CHUNK : list->owner_count;
+    ContactSums *sums = &list->sums[chunk];
+    *sums = (ContactSums){0};
+    for (int i = first; i < end; i++) meet_node(loop, run, law, i, sums, list->forces + list->pairs.start[first]);
+}

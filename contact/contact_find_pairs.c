@@ -1,0 +1,293 @@
+/* Broad phase: which nodes may meet which triangles and which edges which before anything has moved half the skin. */
+#include <math.h>
+#include <string.h>
+
+#include "contact/contact_grid.h"
+#include "contact/contact_loop.h"
+#include "contact/contact_sides.h"
+#include "solver/memory.h"
+#include "solver/vector3.h"
+
+/* Edges whose triangles are turned by less than this (1.8 degrees) are left to the nodes. */
+#define SHARP_COSINE 0.9995
+
+/* Begins a new list in the room of the one before the last. */
+static int pairs_begin(ContactList *list)
+{
+    ContactPairs last = list->pairs;
+    list->pairs = list->before;
+    list->before = last;
+    list->pairs.count = 0;
+    return memory_reserve((void **)&list->pairs.start, &list->pairs.start_capacity, (size_t)list->owner_count + 1,
+                          sizeof *list->pairs.start);
+}
+
+static int pairs_add(ContactPairs *pairs, int32_t other)
+{
+    if (memory_reserve((void **)&pairs->other, &pairs->other_capacity, pairs->count + 1, sizeof *pairs->other))
+        return -1;
+    pairs->other[pairs->count++] = other;
+    return 0;
+}
+
+/* Memories move to the new places of their pairs; both lists ascend. */
+static int pairs_end(ContactList *list)
+{
+    ContactPairs *pairs = &list->pairs;
+    const ContactPairs *before = &list->before;
+    pairs->start[list->owner_count] = (int32_t)pairs->count;
+    size_t room = pairs->count + 1;
+    if (memory_reserve((void **)&pairs->wake, &pairs->wake_capacity, room, sizeof *pairs->wake) ||
+        memory_reserve((void **)&pairs->slot, &pairs->slot_capacity, room, sizeof *pairs->slot) ||
+        memory_reserve((void **)&list->forces, &list->force_capacity, room, sizeof *list->forces))
+        return -1;
+    memset(pairs->wake, 0, pairs->count * sizeof *pairs->wake);
+    memset(pairs->slot, 0, pairs->count * sizeof *pairs->slot);
+    for (int i = 0; before->start && i < list->owner_count; i++) {
+        int32_t n = pairs->start[i], end = pairs->start[i + 1];
+        for (int32_t o = before->start[i]; o < before->start[i + 1]; o++) {
+            if (before->slot[o] == 0) continue;
+            while (n < end && pairs->other[n] < before->other[o]) n++;
+            if (n < end && pairs->other[n] == before->other[o])
+                pairs->slot[n] = before->slot[o];
+            else /* no candidate any more */
+                list->memory[(ptrdiff_t)i * CONTACT_SLOTS + before->slot[o] - 1] = (ContactMemory){0};
+        }
+    }
+    return 0;
+}
+
+void contact_fill_planes(ContactRun *run, const double *x, int first, int end, bool all)
+{
+    const ContactInterface *c = run->contact;
+    for (int t = first; t < end; t++) {
+        double *plane = run->plane + 4 * (ptrdiff_t)t, a[3], b[3], n[3];
+        if (!all && !run->used[t]) continue;
+        const double *corner = x + 3 * (ptrdiff_t)c->triangle[3 * t];
+        vector3_subtract(x + 3 * (ptrdiff_t)c->triangle[3 * t + 1], corner, a);
+        vector3_subtract(x + 3 * (ptrdiff_t)c->triangle[3 * t + 2], corner, b);
+        vector3_cross(a, b, n);
+        double square = vector3_dot(n, n), inverse = square > 0.0 ? 1.0 / sqrt(square) : 0.0;
+        for (int k = 0; k < 3; k++) plane[k] = n[k] * inverse;
+        /* a triangle without area is nowhere near */
+        plane[3] = square > 0.0 ? vector3_dot(plane, corner) : 1e300;
+    }
+}
+
+/* Triangles whose three neighbours lie nearly in their plane: what is close behind them is hidden by them. */
+static void mark_calm(ContactRun *run)
+{
+    const ContactInterface *c = run->contact;
+    for (int t = 0; t < c->triangle_count; t++) {
+        run->calm[t] = 1;
+        for (int k = 0; k < 3 && run->calm[t]; k++) {
+            int other = c->neighbour[3 * t + k];
+            run->calm[t] =
+                other >= 0 && vector3_dot(run->plane + 4 * (ptrdiff_t)t, run->plane + 4 * (ptrdiff_t)other) > 0.9;
+        }
+    }
+}
+
+static inline double plane_height(const double *plane, const double *x)
+{
+    return plane[0] * x[0] + plane[1] * x[1] + plane[2] * x[2] - plane[3];
+}
+
+/* Does the foot of x on the triangle's plane lie within it? */
+static bool foot_inside(const ContactRun *run, const double *positions, int t, const double *x)
+{
+    const int32_t *corner = run->contact->triangle + 3 * (ptrdiff_t)t;
+    const double *n = run->plane + 4 * (ptrdiff_t)t;
+    for (int k = 0; k < 3; k++) {
+        const double *p = positions + 3 * (ptrdiff_t)corner[k], *q = positions + 3 * (ptrdiff_t)corner[(k + 1) % 3];
+        double e[3], r[3], w[3];
+        vector3_subtract(q, p, e);
+        vector3_subtract(x, p, r);
+        vector3_cross(e, r, w);
+        if (vector3_dot(w, n) < 0.0) return false;
+    }
+    return true;
+}
+
+/* A layer that a node would have to meet first. */
+typedef struct Cover {
+    const double *plane;
+    double height; /* of the node over it */
+} Cover;
+
+/* The nearest calm triangle under the node on each side of the direction of the first such one. */
+static int find_covers(const ContactRun *run, const double *positions, const double *x, const int32_t *found, int count,
+                       const double *height, Cover cover[2])
+{
+    int covers = 0;
+    for (int side = 0; side < 2; side++) {
+        int best = -1;
+        double least = INFINITY;
+        for (int k = 0; k < count; k++) {
+            double h = height[k];
+            const double *plane = run->plane + 4 * (ptrdiff_t)found[k];
+            if (!run->calm[found[k]] || !(fabs(h) < least) || h == 0.0) continue;
+            /* the other side: where the way to the layer leads the other way */
+            if (side == 1 && covers == 1 && vector3_dot(plane, cover[0].plane) * h * cover[0].height > 0.0) continue;
+            if (!foot_inside(run, positions, found[k], x)) continue;
+            least = fabs(h);
+            best = k;
+        }
+        if (best < 0) break;
+        cover[covers++] = (Cover){run->plane + 4 * (ptrdiff_t)found[best], height[best]};
+    }
+    return covers;
+}
+
+/* Is this triangle, nearly parallel to a cover, behind it as seen from the node? */
+static bool is_hidden(const Cover *cover, int covers, const double *plane, double height, double margin)
+{
+    for (int i = 0; i < covers; i++) {
+        double alike = vector3_dot(plane, cover[i].plane);
+        if (fabs(alike) < 0.9 || alike * height * cover[i].height < 0.0) continue;
+        if (fabs(height) > fabs(cover[i].height) + margin) return true;
+    }
+    return false;
+}
+
+/* Nodes that are behind a surface they should not pass see all layers: the State keeps which, for a restart. */
+static void mark_deep(const ContactRun *run, unsigned char *deep)
+{
+    const ContactMemory *m = run->faces.memory;
+    memset(deep, 0, (size_t)run->contact->node_count);
+    for (int i = 0; i < run->contact->node_count; i++)
+        for (int k = 0; k < CONTACT_SLOTS; k++, m++)
+            if (m->side && m->gap < 0.0) deep[i] = 1;
+}
+
+/* Candidates of one node out of the triangles found near it. */
+static int choose_faces(ContactLoop *loop, ContactRun *run, const double *positions, int i, int found, double skin)
+{
+    const ContactInterface *c = run->contact;
+    const double *x = positions + 3 * (ptrdiff_t)c->node[i];
+    int32_t *near = loop->grid->found;
+    int count = 0, covers = 0;
+    Cover cover[2];
+    if (memory_reserve((void **)&loop->height, &loop->height_capacity, (size_t)found + 1, sizeof *loop->height))
+        return -1;
+    for (int k = 0; k < found; k++) {
+        int t = near[k];
+        double h = plane_height(run->plane + 4 * (ptrdiff_t)t, x);
+        if (fabs(h) > c->node_radius[i] + c->triangle_radius[t] + skin || !contact_node_meets(loop->model, c, i, t))
+            continue;
+        near[count] = t;
+        loop->height[count++] = h;
+    }
+    if (!loop->state->contact_sharp[c->first_deep + (size_t)i])
+        covers = find_covers(run, positions, x, near, count, loop->height, cover);
+    for (int k = 0; k < count; k++) {
+        double margin = 0.5 * (c->node_radius[i] + c->triangle_radius[near[k]]);
+        if (is_hidden(cover, covers, run->plane + 4 * (ptrdiff_t)near[k], loop->height[k], margin)) continue;
+        run->used[near[k]] = 1;
+        if (pairs_add(&run->faces.pairs, near[k])) return -1;
+    }
+    return 0;
+}
+
+static int find_faces(ContactLoop *loop, ContactRun *run, const double *x, double skin)
+{
+    const ContactInterface *c = run->contact;
+    ContactBox *box = loop->box;
+    double widest = 0.0;
+    for (int i = 0; i < c->node_count; i++) widest = c->node_radius[i] > widest ? c->node_radius[i] : widest;
+    for (int t = 0; t < c->triangle_count; t++) {
+        contact_box_start(&box[t], x + 3 * (ptrdiff_t)c->triangle[3 * t]);
+        contact_box_add(&box[t], x + 3 * (ptrdiff_t)c->triangle[3 * t + 1]);
+        contact_box_add(&box[t], x + 3 * (ptrdiff_t)c->triangle[3 * t + 2]);
+        contact_box_grow(&box[t], c->triangle_radius[t] + widest + skin);
+    }
+    if (!loop->restored) mark_deep(run, loop->state->contact_sharp + c->first_deep);
+    contact_fill_planes(run, x, 0, c->triangle_count, true);
+    mark_calm(run);
+    memset(run->used, 0, (size_t)c->triangle_count);
+    int status = contact_grid_fill(loop->grid, box, c->triangle_count, c->longest_side + c->thickest + skin);
+    if (!status) status = pairs_begin(&run->faces);
+    for (int i = 0; i < c->node_count && !status; i++) {
+        ContactBox point;
+        run->faces.pairs.start[i] = (int32_t)run->faces.pairs.count;
+        contact_box_start(&point, x + 3 * (ptrdiff_t)c->node[i]);
+        int found = contact_grid_query(loop->grid, &point);
+        status = found < 0 ? -1 : choose_faces(loop, run, x, i, found, skin);
+    }
+    return status ? -1 : pairs_end(&run->faces);
+}
+
+/* A free edge, a branch, or an edge at which the surface is turned. Planes are those at the search. */
+static bool is_sharp(const ContactRun *run, int e)
+{
+    const ContactInterface *c = run->contact;
+    int32_t t = c->edge_triangle[2 * e], u = c->edge_triangle[2 * e + 1];
+    return u < 0 || vector3_dot(run->plane + 4 * (ptrdiff_t)t, run->plane + 4 * (ptrdiff_t)u) < SHARP_COSINE;
+}
+
+static bool edges_meet(const ContactLoop *loop, const ContactInterface *c, int e, int f)
+{
+    const int32_t *a = c->edge + 2 * (ptrdiff_t)e, *b = c->edge + 2 * (ptrdiff_t)f;
+    const double *inverse = loop->model->contact_inverse;
+    if (!contact_sides_meet(c->edge_side[e], c->edge_side[f])) return false;
+    if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return false;
+    int32_t t = c->edge_triangle[2 * e], u = c->edge_triangle[2 * f];
+    if (c->triangle_body[t] != -1 && c->triangle_body[t] == c->triangle_body[u]) return false;
+    if (c->triangle_shell[t] >= 0 && c->triangle_shell[t] == c->triangle_shell[u]) return false;
+    return inverse[a[0]] > 0.0 || inverse[a[1]] > 0.0 || inverse[b[0]] > 0.0 || inverse[b[1]] > 0.0;
+}
+
+/* Edges that are sharp now, or in contact and were so before; the State keeps them for a restart. */
+static void mark_sharp(const ContactRun *run, unsigned char *sharp)
+{
+    const ContactInterface *c = run->contact;
+    const ContactPairs *pairs = &run->edges.pairs;
+    for (int e = 0; e < c->edge_count; e++) sharp[e] = is_sharp(run, e);
+    for (int e = 0; pairs->start && e < c->edge_count; e++)
+        for (int32_t k = pairs->start[e]; k < pairs->start[e + 1]; k++)
+            if (pairs->slot[k]) sharp[e] = sharp[pairs->other[k]] = 1;
+}
+
+static void box_edges(const ContactInterface *c, const double *x, double skin, const unsigned char *sharp,
+                      ContactBox *box)
+{
+    for (int e = 0; e < c->edge_count; e++) {
+        box[e] = (ContactBox){{1, 1, 1}, {0, 0, 0}};
+        if (!sharp[e]) continue;
+        contact_box_start(&box[e], x + 3 * (ptrdiff_t)c->edge[2 * e]);
+        contact_box_add(&box[e], x + 3 * (ptrdiff_t)c->edge[2 * e + 1]);
+        contact_box_grow(&box[e], c->edge_radius[e] + 0.5 * skin);
+    }
+}
+
+static int find_edges(ContactLoop *loop, ContactRun *run, const double *x, double skin)
+{
+    const ContactInterface *c = run->contact;
+    ContactBox *box = loop->box;
+    unsigned char *sharp = loop->state->contact_sharp + c->first_edge;
+    if (!loop->restored) mark_sharp(run, sharp);
+    box_edges(c, x, skin, sharp, box);
+    int status = contact_grid_fill(loop->grid, box, c->edge_count, c->longest_side + c->thickest + skin);
+    if (!status) status = pairs_begin(&run->edges);
+    for (int e = 0; e < c->edge_count && !status; e++) {
+        run->edges.pairs.start[e] = (int32_t)run->edges.pairs.count;
+        if (box[e].low[0] > box[e].high[0]) continue;
+        int found = contact_grid_query(loop->grid, &box[e]);
+        status = found < 0 ? -1 : 0;
+        for (int k = 0; k < found && !status; k++) {
+            int f = loop->grid->found[k];
+            if (f > e && edges_meet(loop, c, e, f)) status = pairs_add(&run->edges.pairs, f);
+        }
+    }
+    return status ? -1 : pairs_end(&run->edges);
+}
+
+int contact_find_pairs(ContactLoop *loop, ContactRun *run, const double *x)
+{
+    double skin = loop->state->contact->skin;
+    size_t boxes = (size_t)(run->contact->triangle_count > run->contact->edge_count ? run->contact->triangle_count
+                                                                                    : run->contact->edge_count);
+    if (memory_reserve((void **)&loop->box, &loop->box_capacity, boxes + 1, sizeof *loop->box)) return -1;
+    if (find_faces(loop, run, x, skin)) return -1;
+    return run->contact->edge_count > 0 ? find_edges(loop, run, x, skin) : 0;
+}

@@ -1,0 +1,227 @@
+/* The law of one pair: penalty, damping and friction (docs/theory.md, Contact). Inlined into the loops over nodes and
+ * over edges. */
+#ifndef BILLOW_CONTACT_LAW_H
+#define BILLOW_CONTACT_LAW_H
+
+#include <math.h>
+#include <string.h>
+
+#include "contact/contact_loop.h"
+#include "solver/elementary.h"
+#include "solver/vector3.h"
+
+/* Least gap that a step may leave, as a share of the distance at which the pair begins to push (eq. C13). */
+#define CONTACT_FLOOR 0.3
+
+/* (w dt)^2 of a pair by itself at a share of 1, as SOFSCL gives it; 0.1 is the default (eq. C4). */
+#define CONTACT_STIFFNESS 5.0
+
+/* Coefficients of one interface in one cycle. */
+typedef struct ContactLaw {
+    const Model *model;
+    const double *v, *inverse;
+    const double *rows;     /* corner sums of the elements, elements/kernels.h (row_count x ROW_SIZE) */
+    const double *pressure; /* of each pressure set (pressure_set_count + 1) */
+    const double *room;     /* by node, contact/contact_loop.h (node_count x 6) */
+    const double *corner;   /* loads of the last cycle, fourth in a node's row */
+    double before, next;    /* dt_{n-1/2}, dt_{n+1/2} */
+    double sliding;         /* b for friction's springs */
+    double damping;         /* share of critical */
+    double static_friction, dynamic_friction, decay;
+    double deepest; /* penetration at which a pair is given up [L] */
+} ContactLaw;
+
+/* A pair that is near: geometry of this cycle. */
+typedef struct ContactTouch {
+    int32_t node[4];
+    double weight[4];
+    double gap;          /* distance on the side where it is taken to be; negative behind [L] */
+    double thickness;    /* distance at which it should stay [L] */
+    double direction[3]; /* unit vector of the force on the first weight */
+    double speed[3];     /* sum of weight v: velocity of the first against the second [L/T] */
+    double stiffness;    /* share of the stability limit */
+    int side;            /* for a new pair */
+} ContactTouch;
+
+static inline void contact_speed(const ContactLaw *law, ContactTouch *t)
+{
+    for (int k = 0; k < 3; k++) t->speed[k] = 0.0;
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 3; k++) t->speed[k] += t->weight[i] * law->v[3 * (ptrdiff_t)t->node[i] + k];
+}
+
+/* Masses of one pair. */
+typedef struct ContactMasses {
+    double effective; /* eq. C3; 0: nothing of it can move */
+    double load;      /* C of eq. C6 */
+    double least;     /* M, the least m/S of its nodes */
+    double stiff;     /* B, the least m R/S of them: k dt^2 must not be larger (eq. C4) */
+} ContactMasses;
+
+/* (w dt)^2 that contact in the direction d may add at a node (eq. C12). */
+static inline double contact_room(const double *h, const double *d)
+{
+    return 1.0 / (h[0] * d[0] * d[0] + h[1] * d[1] * d[1] + h[2] * d[2] * d[2] +
+                  2.0 * (h[3] * d[0] * d[1] + h[4] * d[1] * d[2] + h[5] * d[2] * d[0]));
+}
+
+static inline ContactMasses contact_masses(const ContactLaw *law, const ContactTouch *t)
+{
+    ContactMasses masses = {0};
+    double inverse = 0.0, worst = 0.0, stiff = INFINITY;
+    for (int i = 0; i < 4; i++)
+        if (law->inverse[t->node[i]] > 0.0) masses.load += fabs(t->weight[i]);
+    for (int i = 0; i < 4; i++) {
+        double of_node = law->inverse[t->node[i]], share = fabs(t->weight[i]);
+        double own = masses.load * share, all = law->corner[CONTACT_ROW * (ptrdiff_t)t->node[i] + 3];
+        if (share == 0.0 || of_node == 0.0) continue;
+        inverse += share * share * of_node;
+        all = all > own ? all : own;
+        worst = all * of_node > worst ? all * of_node : worst;
+        double own_stiff = contact_room(law->room + 6 * (ptrdiff_t)t->node[i], t->direction) / (all * of_node);
+        stiff = own_stiff < stiff ? own_stiff : stiff;
+    }
+    if (!(inverse > 0.0)) return masses;
+    masses.effective = 1.0 / inverse;
+    masses.least = 1.0 / worst;
+    masses.stiff = stiff;
+    return masses;
+}
+
+/* A pair that was not in contact (eq. C8). What it is closer by than it can have come in the last step, it was before.
+ */
+static inline void contact_begin(const ContactTouch *t, double normal_speed, double before, ContactMemory *m)
+{
+    double came = normal_speed < 0.0 ? -normal_speed * before : 0.0;
+    *m = (ContactMemory){.side = t->side, .distance = t->gap + came < t->thickness ? t->gap + came : t->thickness};
+}
+
+/* Tangential force on the node: a spring that slips at the friction limit (eq. C9, C10). */
+static inline void contact_friction(const ContactLaw *law, const ContactTouch *t, double normal_speed,
+                                    double normal_force, double stiffness, ContactMemory *m)
+{
+    double slip[3], along = vector3_dot(m->friction, t->direction), speed2 = 0.0;
+    for (int k = 0; k < 3; k++) {
+        slip[k] = t->speed[k] - normal_speed * t->direction[k];
+        speed2 += slip[k] * slip[k];
+        m->friction[k] -= along * t->direction[k] + stiffness * law->before * slip[k];
+    }
+    double mu = law->static_friction;
+    if (law->decay > 0.0)
+        mu = law->dynamic_friction +
+             (mu - law->dynamic_friction) * elementary_exp(-law->decay * sqrt(speed2)); /* eq. C11 */
+    double size = vector3_norm(m->friction), most = mu * normal_force;
+    if (size <= most) return;
+    double scale = size > 0.0 ? most / size : 0.0;
+    for (int k = 0; k < 3; k++) m->friction[k] *= scale;
+}
+
+/* Mean over the step of a penetration that grows or shrinks by 2 h, as far as it is positive (eq. C2). */
+static inline double contact_mean_depth(double depth, double h)
+{
+    if (depth >= h) return depth;
+    return depth <= -h ? 0.0 : (depth + h) * (depth + h) / (4.0 * h);
+}
+
+/* The stiffness follows the step as long as its bound allows; where it rises under load the distance falls, so that
+ * the force stays and no energy comes of it (eq. C4a). */
+static inline void contact_stiffen(const ContactTouch *t, double stiffness, bool new_pair, ContactMemory *m)
+{
+    if (new_pair || stiffness < m->stiffness) {
+        m->stiffness = stiffness;
+    } else if (stiffness > 1.25 * m->stiffness) {
+        if (m->distance > t->gap) m->distance = t->gap + (m->distance - t->gap) * m->stiffness / stiffness;
+        m->stiffness = stiffness;
+    }
+}
+
+/* Acceleration of a free node by its elements and the gas; others are taken to have none. */
+static inline double contact_pull(const ContactLaw *law, int32_t node, const double d[3])
+{
+    const Model *m = law->model;
+    double sum = 0.0;
+    if (node >= m->free_count) return 0.0;
+    for (int32_t k = m->node_row_start[node]; k < m->node_row_start[node + 1]; k++) {
+        int32_t row = m->node_row[k];
+        if (row >= m->contact_row) break;
+        const double *force = law->rows + ROW_SIZE * (ptrdiff_t)row;
+        sum += vector3_dot(force, d);
+        if (m->row_set[row] >= 0) sum += law->pressure[m->row_set[row]] * vector3_dot(force + ROW_AREA, d);
+    }
+    return sum * m->inverse_mass[node];
+}
+
+/* Force that keeps the coming step from closing the gap (eq. C13): an impulse without rebound. It begins with that of
+ * the last step, rises by no more than all pairs of its nodes may together, and falls as fast as it can. */
+static inline double contact_limit(const ContactLaw *law, const ContactTouch *t, const ContactMasses *masses,
+                                   double normal_speed, double force, const ContactMemory *m)
+{
+    double mean = 0.5 * (law->before + law->next), least = CONTACT_FLOOR * m->distance;
+    double slowest = t->gap > least ? (least - t->gap) / law->next : 0.0, pull = 0.0;
+    for (int i = 0; i < 4; i++)
+        if (t->weight[i] != 0.0) pull += t->weight[i] * contact_pull(law, t->node[i], t->direction);
+    double speed = normal_speed + (pull + (force + m->limit) / masses->effective) * mean;
+    double mass = masses->effective < masses->least || speed > slowest ? masses->effective : masses->least;
+    double limit = m->limit + mass * (slowest - speed) / mean;
+    return limit > 0.0 ? limit : 0.0;
+}
+
+/* Force of the pair. Returns 1 if it counts for the nodes' loads (it touches or will in the coming step), else 0 with
+ * the memory cleared where the contact has ended. */
+static inline int contact_push(const ContactLaw *law, ContactTouch *t, ContactMemory *m, ContactForce *out,
+                               ContactSums *sums)
+{
+    double normal_speed = vector3_dot(t->speed, t->direction);
+    double h = 0.25 * (law->before + law->next) * fabs(normal_speed);
+    bool new_pair = m->side == 0, touching = t->gap < t->thickness + h;
+    if (!touching) *m = (ContactMemory){0};
+    if (!touching && !(t->gap + normal_speed * law->next < t->thickness)) return 0;
+    ContactMasses masses = contact_masses(law, t);
+    if (masses.effective == 0.0 || t->gap < -law->deepest) {
+        sums->lost += m->side != 0 && masses.effective > 0.0;
+        if (m->side != 0 && masses.effective > 0.0) sums->lost_node = t->node[0];
+        *m = (ContactMemory){0};
+        return 0;
+    }
+    memcpy(out->node, t->node, sizeof out->node);
+    memcpy(out->weight, t->weight, sizeof out->weight);
+    out->load = masses.load;
+    double force = 0.0;
+    if (touching) {
+        double step2 = law->next * law->next, z = law->damping;
+        double root = sqrt(4.0 * z * z + 0.8 * masses.stiff / masses.least) - 2.0 * z; /* of b, eq. C5 */
+        double most = root * root * masses.least, wanted = CONTACT_STIFFNESS * t->stiffness * masses.effective;
+        if (new_pair) {
+            contact_begin(t, normal_speed, law->before, m);
+            if (t->thickness > 0.0 && -normal_speed * law->before > t->thickness) {
+                sums->fast++;
+                sums->fast_node = t->node[0];
+            }
+        }
+        m->gap = t->gap;
+        if (t->gap > m->distance) /* an initial penetration that has eased (eq. C8) */
+            m->distance = t->gap < t->thickness ? t->gap : t->thickness;
+        contact_stiffen(t, (wanted < most ? wanted : most) / step2, new_pair, m);
+        double depth = contact_mean_depth(m->distance - t->gap, h);
+        force = m->stiffness * depth;
+        if (z > 0.0 && depth > 0.0) {
+            double c = sqrt(m->stiffness * masses.effective), bound = root * masses.least / law->next;
+            force -= 2.0 * z * (c < bound ? c : bound) * normal_speed;
+            force = force > 0.0 ? force : 0.0;
+        }
+    }
+    if (!touching) m->distance = t->thickness;
+    m->limit = contact_limit(law, t, &masses, normal_speed, force, m);
+    force += m->limit;
+    for (int k = 0; k < 3; k++) out->force[k] = force * t->direction[k];
+    if (touching && (law->static_friction > 0.0 || law->dynamic_friction > 0.0)) {
+        double sliding = law->sliding * masses.least / (law->next * law->next);
+        contact_friction(law, t, normal_speed, force, m->stiffness < sliding ? m->stiffness : sliding, m);
+        for (int k = 0; k < 3; k++) out->force[k] += m->friction[k];
+    }
+    if (!touching) *m = (ContactMemory){0};
+    sums->power += vector3_dot(out->force, t->speed);
+    return 1;
+}
+
+#endif

@@ -1,0 +1,185 @@
+/* Contact in the time loop: candidate lists, forces, sums. Private to contact/ but for the stages at the end. */
+#ifndef BILLOW_CONTACT_LOOP_H
+#define BILLOW_CONTACT_LOOP_H
+
+#include "elements/kernels.h"
+#include "solver/model.h"
+#include "solver/state.h"
+
+enum {
+    CONTACT_ROW = 8,          /* doubles of a row of corner sums, elements/kernels.h: force, load, four zeros */
+    CONTACT_SLOTS = 8,        /* pairs that a node or an edge can be in contact by */
+    CONTACT_CHUNK = 64,       /* nodes or edges of one fixed piece of work */
+    CONTACT_NODE_CHUNK = 256, /* nodes of one fixed partial sum of work */
+};
+
+/* One pair that touches, or will in the coming step: what its four nodes get. */
+typedef struct ContactForce {
+    int32_t node[4];
+    double weight[4]; /* the force on node i is weight[i] force; the weights' sum is 0 */
+    double force[3];  /* [F] */
+    double load;      /* share of the pair in its nodes' loads, eq. C6 */
+} ContactForce;
+
+/* An edge pair that has just lost its crossing while in contact: it has slid from one edge onto the next. */
+typedef struct ContactPassage {
+    int32_t first, second; /* edges */
+    ContactMemory memory;
+} ContactPassage;
+
+enum { CONTACT_PASSAGES = 8 };
+
+/* Passages of one chunk of edges; more than fit are left to themselves. */
+typedef struct ContactPassages {
+    int count;
+    ContactPassage ended[CONTACT_PASSAGES];
+} ContactPassages;
+
+/* Sums over one chunk. */
+typedef struct ContactSums {
+    double force[3];   /* on side A [F] */
+    double power;      /* of the contact forces on the velocities at n - 1/2 [F L/T] */
+    int count;         /* entries of the chunk in forces */
+    int lost;          /* pairs that went deeper than the limit and were let go */
+    int fast;          /* pairs that met faster than one thickness in a step */
+    int32_t low, high; /* range of the nodes touched */
+    int32_t fast_node, lost_node;
+} ContactSums;
+
+/* Candidate pairs: for each node its triangles, for each edge its edges, ascending. */
+typedef struct ContactPairs {
+    int32_t *start;      /* (owner_count + 1) */
+    int32_t *other;      /* (count) */
+    double *wake;        /* motion from which on the pair may touch (count) [L] */
+    unsigned char *slot; /* of the owner's memories, from 1; 0 none (count) */
+    size_t count, start_capacity, other_capacity, wake_capacity, slot_capacity;
+} ContactPairs;
+
+/* Candidates of one kind and what becomes of them in a cycle. */
+typedef struct ContactList {
+    int owner_count, chunk_count;
+    ContactMemory *memory;      /* of each owner (owner_count x CONTACT_SLOTS); free ones have side 0 */
+    ContactPairs pairs, before; /* before: those of the search before, whose room the next one takes */
+    ContactForce *forces;       /* of chunk c from start[c CONTACT_CHUNK] on (count) */
+    size_t force_capacity;
+    ContactSums *sums;         /* (chunk_count) */
+    ContactPassages *passages; /* of edges (chunk_count) */
+} ContactList;
+
+/* What the owner's pair remembers; NULL if nothing. */
+static inline ContactMemory *contact_recall(const ContactList *list, int owner, int32_t pair)
+{
+    int slot = list->pairs.slot[pair];
+    return slot ? &list->memory[(ptrdiff_t)owner * CONTACT_SLOTS + slot - 1] : NULL;
+}
+
+static inline void contact_forget(ContactList *list, int owner, int32_t pair)
+{
+    ContactMemory *m = contact_recall(list, owner, pair);
+    if (m) *m = (ContactMemory){0};
+    list->pairs.slot[pair] = 0;
+}
+
+/* Gives a pair a memory; one too many is let go. */
+static inline void contact_keep(ContactList *list, int owner, int32_t pair, const ContactMemory *memory)
+{
+    ContactMemory *of_owner = list->memory + (ptrdiff_t)owner * CONTACT_SLOTS;
+    for (int k = 0; k < CONTACT_SLOTS; k++) {
+        if (of_owner[k].side) continue;
+        of_owner[k] = *memory;
+        list->pairs.slot[pair] = (unsigned char)(k + 1);
+        return;
+    }
+}
+
+/* One interface in the loop. */
+typedef struct ContactRun {
+    const ContactInterface *contact;
+    ContactList faces, edges;
+    double *plane;       /* unit normal and offset of each triangle in candidate lists, at x_n (triangle_count x 4) */
+    unsigned char *used; /* triangles in candidate lists (triangle_count) */
+    unsigned char *calm; /* workspace of the search: triangles with three neighbours nearly in their plane */
+    bool alive;
+    double thinness; /* factor on the radii, of LCIDAB */
+    double *force;   /* on side A at t_n, in resultant [F] */
+} ContactRun;
+
+/* Sums over one chunk of nodes after the step. */
+typedef struct ContactMotion {
+    double power;   /* of the contact forces on the velocities at n + 1/2 */
+    double fastest; /* largest v.v */
+    double moved;   /* largest squared way since the search */
+} ContactMotion;
+
+/* Coefficients of a cycle. */
+typedef struct ContactStep {
+    double time, before, next; /* t_n, dt_{n-1/2}, dt_{n+1/2} */
+    double near;               /* how much farther than the thickness a pair may matter in this step [L] */
+    double ahead;              /* motion that wakes sleeping pairs */
+    double longer;             /* the longer of the two steps */
+} ContactStep;
+
+typedef struct ContactLoop {
+    const Model *model;
+    State *state;
+    ContactRun *runs;              /* (contact_count) */
+    double *resultant;             /* force on side A of each at t_n (contact_count x 3) [F] */
+    const double *rows, *pressure; /* of all corner sums; of the pressure sets */
+    double *corner;         /* rows with contact forces x, y, z and load of each node (node_count x CONTACT_ROW) */
+    ContactMotion *motions; /* (motion_count) */
+    int motion_count;
+    double motion;  /* sum of the largest speed times the step: no node has gone farther since the start [L] */
+    double fastest; /* largest speed now */
+    double power, power_after;
+    bool search_due, pending;
+    ContactStep step;
+    struct ContactGrid *grid;
+    struct ContactBox *box; /* workspace of the search */
+    size_t box_capacity;
+    double *room; /* at the last search: (w dt)^2 that contact may add at a node in direction d is 1/(d . room d); xx yy
+                   * zz xy yz zx (node_count x 6) */
+    double *around; /* workspace: mass of the elements at each node (node_count) */
+    double *height; /* of a node over the triangles found */
+    size_t height_capacity;
+    bool restored; /* the first search of a restart: at the place and with the edges of the last one */
+    int64_t searches;
+    double search_seconds;
+    bool out_of_memory;
+} ContactLoop;
+
+/* Makes the loop's part of contact; rows: all rows of corner sums; pressure: of the bags on each pressure set. NULL
+ * without memory. Takes memory and loads from the State, so that a restart goes on as if it had not been interrupted.
+ */
+ContactLoop *contact_create(const Model *model, State *state, double *rows, const double *pressure);
+void contact_free(ContactLoop *loop);
+
+/* The stages. */
+void contact_planes(ContactLoop *loop, int thread, int threads); /* all, at x_n: planes of the triangles */
+/* thread 0: search where it is due */
+void contact_prepare(ContactLoop *loop, double time, double before, double next);
+void contact_forces(ContactLoop *loop, int thread, int threads);                 /* all: narrow phase and forces */
+void contact_gather(ContactLoop *loop, int thread, int threads);                 /* all: forces to nodes */
+void contact_follow(ContactLoop *loop, int thread, int threads, double pending); /* all, after the node pass; pending:
+                                                                                  * step still to be added to x */
+void contact_sum(ContactLoop *loop);   /* thread 0: partial sums of the two before */
+void contact_store(ContactLoop *loop); /* thread 0: memory and loads into the State */
+
+/* Inside. */
+/* Planes of triangles [first, end) at positions x; all: of unused ones too. */
+void contact_fill_planes(ContactRun *run, const double *x, int first, int end, bool all);
+
+/* Fills room; elements, rest: (w dt)^2 that elements may have, and that they leave in their plane. */
+void contact_fill_room(ContactLoop *loop, const double *x, double elements, double rest);
+
+struct ContactLaw;
+void contact_meet_faces(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int chunk);
+void contact_meet_edges(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int chunk);
+
+/* Edge pairs that have ended leave their memory to the pair beside them that the crossing has slid onto. Thread 0. */
+void contact_pass_on(ContactLoop *loop, ContactRun *run);
+
+/* New candidate lists at the positions x (node_count x 3); memories of pairs stay with them. 0, or -1 without memory.
+ */
+int contact_find_pairs(ContactLoop *loop, ContactRun *run, const double *x);
+
+#endif

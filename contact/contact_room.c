@@ -1,0 +1,62 @@
+/* How stiff contact may be at each node in each direction: elements are stiff in their own plane only (eq. C12). */
+#include <string.h>
+
+#include "contact/contact_loop.h"
+#include "solver/vector3.h"
+
+/* Components xx yy zz xy yz zx of a symmetric matrix. */
+static void add_square(double *sum, const double n[3], double weight)
+{
+    for (int k = 0; k < 3; k++) {
+        sum[k] += weight * n[k] * n[k];
+        sum[3 + k] += weight * n[k] * n[(k + 1) % 3];
+    }
+}
+
+static void invert(double a[6])
+{
+    double xx = a[1] * a[2] - a[4] * a[4], yy = a[0] * a[2] - a[5] * a[5], zz = a[0] * a[1] - a[3] * a[3];
+    double xy = a[4] * a[5] - a[3] * a[2], yz = a[3] * a[5] - a[0] * a[4], zx = a[3] * a[4] - a[1] * a[5];
+    double inverse = 1.0 / (a[0] * xx + a[3] * xy + a[5] * zx);
+    const double adjoint[6] = {xx, yy, zz, xy, yz, zx};
+    for (int k = 0; k < 6; k++) a[k] = adjoint[k] * inverse;
+}
+
+/* Unit normal of an element; false if it has no area. */
+static bool element_normal(const double *x, const int32_t *node, double n[3])
+{
+    double u[3], w[3];
+    bool triangle = node[3] == node[2];
+    vector3_subtract(x + 3 * (ptrdiff_t)node[2], x + 3 * (ptrdiff_t)node[0], u);
+    vector3_subtract(x + 3 * (ptrdiff_t)node[triangle ? 1 : 3], x + 3 * (ptrdiff_t)node[triangle ? 0 : 1], w);
+    vector3_cross(u, w, n);
+    return vector3_normalize(n) > 0.0;
+}
+
+void contact_fill_room(ContactLoop *loop, const double *x, double elements, double rest)
+{
+    const Model *m = loop->model;
+    double *mass = loop->around;
+    memset(loop->room, 0, 6 * (size_t)m->node_count * sizeof *loop->room);
+    memset(mass, 0, (size_t)m->node_count * sizeof *mass);
+    for (int e = 0; e < m->element_count; e++) {
+        const int32_t *node = m->element_node + 4 * (ptrdiff_t)e;
+        double n[3], weight = m->element_mass[e];
+        bool flat = element_normal(x, node, n);
+        for (int k = 0; k < (node[3] == node[2] ? 3 : 4); k++) {
+            mass[node[k]] += weight;
+            if (flat) add_square(loop->room + 6 * (ptrdiff_t)node[k], n, weight);
+        }
+    }
+    for (int b = 0; b < m->rigid_body_count; b++) /* what is rigid has no stiffness of its own */
+        for (int i = 0; i < m->rigid_bodies[b].node_count; i++) {
+            int32_t node = m->rigid_bodies[b].node[i];
+            mass[node] = 1.0;
+            memcpy(loop->room + 6 * (ptrdiff_t)node, (double[6]){1.0, 1.0, 1.0}, 6 * sizeof *loop->room);
+        }
+    for (int n = 0; n < m->node_count; n++) {
+        double *room = loop->room + 6 * (ptrdiff_t)n, scale = mass[n] > 0.0 ? elements / mass[n] : 0.0;
+        for (int k = 0; k < 6; k++) room[k] = scale * room[k] + (k < 3 ? rest : 0.0);
+        invert(room);
+    }
+}

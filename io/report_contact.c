@@ -1,0 +1,76 @@
+/* The report of contacts: who meets whom, and what lies too near or through each other at the start. */
+#include "contact/contact_check.h"
+#include "io/report.h"
+
+enum { LISTED_NODES = 200 };
+
+static const char *kind_name(ContactKind kind)
+{
+    switch (kind) {
+    case CONTACT_SELF:
+        return "single surface";
+    case CONTACT_TWO_WAY:
+        return "surface to surface";
+    case CONTACT_ONE_WAY:
+        return "one way surface to surface";
+    case CONTACT_NODES_TO_SURFACE:
+        return "nodes to surface";
+    }
+    return "?";
+}
+
+/* The list that IGNORE = 2 asks for. */
+typedef struct NearList {
+    const Model *model;
+    FILE *stream;
+    int count;
+} NearList;
+
+static void list_near(void *user, const ContactInterface *contact, int node, double distance, double thickness,
+                      const double shift[3])
+{
+    NearList *list = user;
+    const double *x = list->model->initial + 3 * (ptrdiff_t)node;
+    if (contact->ignore != 2 || list->count++ >= LISTED_NODES) return;
+    fprintf(list->stream, "    node %d at (%.8g, %.8g, %.8g): %.4g of %.4g; clear at (%.8g, %.8g, %.8g)\n",
+            list->model->node_id[node], x[0], x[1], x[2], distance, thickness, x[0] + shift[0], x[1] + shift[1],
+            x[2] + shift[2]);
+}
+
+static void write_findings(const Model *model, const ContactFindings *f, const NearList *list, FILE *stream)
+{
+    if (list->count > LISTED_NODES) fprintf(stream, "    and %d more\n", list->count - LISTED_NODES);
+    if (f->near_count > 0)
+        fprintf(stream,
+                "    at the start %d node%s nearer than the thickness (%d in the very place): nearest node %d, %.3g of "
+                "it, at (%.6g, %.6g, %.6g); they push only when they come nearer still\n",
+                f->near_count, f->near_count == 1 ? " is" : "s are", f->touch_count, model->node_id[f->nearest_node],
+                f->nearest, f->place[0], f->place[1], f->place[2]);
+    else
+        fprintf(stream, "    at the start no node is nearer than the thickness\n");
+    if (f->cross_count > 0)
+        fprintf(
+            stream,
+            "    at the start %d edge%s through a surface: the first between nodes %d and %d, at (%.6g, %.6g, %.6g)\n",
+            f->cross_count, f->cross_count == 1 ? " goes" : "s go", model->node_id[f->cross_edge[0]],
+            model->node_id[f->cross_edge[1]], f->cross_place[0], f->cross_place[1], f->cross_place[2]);
+}
+
+void report_write_contacts(const Model *model, FILE *stream)
+{
+    if (model->contact_count == 0) return;
+    fprintf(stream, "\nContacts\n--------\n");
+    for (int i = 0; i < model->contact_count; i++) {
+        const ContactInterface *c = &model->contacts[i];
+        NearList list = {model, stream, 0};
+        ContactFindings findings;
+        fprintf(stream, "  contact %d%s%s: %s, %d nodes, %d triangles, %d edges; thickness up to %.6g", c->id,
+                c->title[0] ? " " : "", c->title, kind_name(c->kind), c->node_count, c->triangle_count, c->edge_count,
+                c->thickest);
+        if (c->static_friction > 0.0 || c->dynamic_friction > 0.0)
+            fprintf(stream, ", friction %.4g", c->static_friction);
+        fputc('\n', stream);
+        if (contact_inspect(model, c, model->initial, &findings, list_near, &list) == 0)
+            write_findings(model, &findings, &list, stream);
+    }
+}

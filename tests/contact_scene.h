@@ -1,0 +1,74 @@
+/* Sheets of fabric that meet: scenes for the tests of contact. */
+#ifndef BILLOW_TESTS_CONTACT_SCENE_H
+#define BILLOW_TESTS_CONTACT_SCENE_H
+
+#include "examples/scene.h"
+
+/* A *CONTACT card; zero members mean the card's default. */
+typedef struct SceneContact {
+    const char *keyword; /* without *CONTACT_ */
+    int a, b, a_type, b_type;
+    double fs, fd, dc, vdc, birth, death;
+    double sst, mst;
+    double soft, sofscl; /* card A is written if soft or sofscl is given */
+} SceneContact;
+
+static inline void scene_write_contact(SceneText *deck, const SceneContact *c)
+{
+    scene_print(deck, "*CONTACT_%s\n", c->keyword);
+    SCENE_CARD(deck, c->a, c->b, c->a_type, c->b_type);
+    SCENE_CARD(deck, c->fs, c->fd, c->dc, 0, c->vdc, 0, c->birth, c->death);
+    SCENE_CARD(deck, 0, 0, c->sst, c->mst);
+    if (c->soft > 0 || c->sofscl > 0) SCENE_CARD(deck, c->soft, c->sofscl);
+}
+
+/* Initial velocity of all nodes [first, end). */
+static inline void scene_write_speed(SceneText *deck, int first, int end, double vx, double vy, double vz)
+{
+    scene_print(deck, "*INITIAL_VELOCITY_NODE\n");
+    for (int i = first; i < end; i++) SCENE_CARD(deck, i + 1, vx, vy, vz);
+}
+
+/* A rectangle nx x ny, lx x ly with its first corner at (x, y, z). Returns its first node. */
+static inline int scene_add_sheet(SceneMesh *mesh, int part, ScenePattern pattern, int nx, int ny, double lx, double ly,
+                                  double x, double y, double z)
+{
+    const double same[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, shift[3] = {x, y, z};
+    int first = mesh->node_count;
+    scene_add_rectangle(mesh, part, pattern, nx, ny, lx, ly);
+    scene_transform(mesh, first, same, shift);
+    return first;
+}
+
+/* Sheets that crumple on a plate: self-contact with friction and damping, many searches. */
+static inline void scene_crumple(Scene *scene)
+{
+    SceneText *deck = &scene->deck;
+    SceneMesh *mesh = &scene->mesh;
+    deck->exact = true;
+    for (int i = 0; i < 3; i++)
+        scene_add_sheet(mesh, 1, i == 1 ? SCENE_QUADS : SCENE_DIAGONAL, 9, 8, 0.09, 0.08, 0.003 * i, 0.001 * i,
+                        0.004 * i);
+    const int sheets = mesh->node_count;
+    scene_add_sheet(mesh, 2, SCENE_QUADS, 3, 3, 0.2, 0.2, -0.05, -0.05, -0.002);
+    scene_begin(deck, "contact", 1, 0.9);
+    scene_write_part(deck, 1, 1, 1, "sheets");
+    scene_write_part(deck, 2, 1, 2, "plate");
+    scene_write_rigid(deck, 2, 7800, 7, 7);
+    scene_write_curve(deck, 1, 2, (const double[]){0, 1, 1, 1});
+    scene_write_gravity(deck, 1, 5000);
+    scene_write_section(deck, 1, 9, 3e-4);
+    SceneFabric fabric = scene_isotropic(0, true, 800, 2e8, 0.3);
+    scene_write_fabric(deck, 1, &fabric);
+    scene_print(deck, "*INITIAL_VELOCITY_NODE\n");
+    for (int i = 0; i < sheets; i++) {
+        const double *x = mesh->x + 3 * i;
+        SCENE_CARD(deck, i + 1, -30 * x[0], 20 * (0.04 - x[1]), 2.0 * (i % 7 - 3) - 200 * x[2]);
+    }
+    scene_write_contact(
+        deck, &(SceneContact){
+                  .keyword = "AUTOMATIC_SINGLE_SURFACE", .a_type = 5, .fs = 0.3, .fd = 0.1, .dc = 0.1, .vdc = 10});
+    scene_end(deck, mesh);
+}
+
+#endif

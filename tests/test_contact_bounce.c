@@ -1,0 +1,182 @@
+/* Contact against closed forms: momentum, restitution, friction. */
+#include "tests/verify.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "tests/contact_scene.h"
+
+static const double thickness = 3e-4, density = 800;
+
+/* Fabric part 1, rigid fixed part 2 (and 3 as 1). */
+static void begin(Scene *scene, double end)
+{
+    SceneText *deck = &scene->deck;
+    deck->exact = true;
+    scene_begin(deck, "contact", end, 0.9);
+    scene_write_part(deck, 1, 1, 1, "fabric");
+    scene_write_part(deck, 2, 1, 2, "plate");
+    scene_write_part(deck, 3, 1, 1, "other fabric");
+    scene_write_section(deck, 1, 9, thickness);
+    SceneFabric fabric = scene_isotropic(0, false, density, 2e8, 0.3);
+    scene_write_fabric(deck, 1, &fabric);
+    scene_write_rigid(deck, 2, 7800, 7, 7);
+}
+
+static void report(const VerifyRun *run)
+{
+    print_message("    %ld cycles, energy off by %.2g of the largest\n", (long)run->cycles,
+                  run->energy > 0 ? run->imbalance / run->energy : 0);
+}
+
+/* The balance once the contact is over; within it the two kinetic energies of the ledger differ. */
+static void check_end(const VerifyRun *run, double tolerance)
+{
+    const VerifySample *last = &run->samples[run->count - 1];
+    verify_near("energy balance at the end", (last->held - last->given) / run->energy, 0, tolerance);
+}
+
+/* Mean velocity of the nodes [first, end). */
+static double mean_speed(const VerifyRun *run, int first, int end, int axis)
+{
+    double sum = 0, mass = 0;
+    for (int i = first; i < end; i++) {
+        double m = run->model.mass[run->model.deck_node[i]];
+        sum += m * run->v[3 * i + axis];
+        mass += m;
+    }
+    return sum / mass;
+}
+
+/* A loose sheet flies onto a fixed plate and off again: elastic contact gives its speed back. */
+static void bounce(ScenePattern pattern, double vdc, double expected, double tolerance)
+{
+    Scene scene = {0};
+    begin(&scene, 1e-3);
+    int sheet = scene_add_sheet(&scene.mesh, 1, pattern, 8, 8, 0.08, 0.08, 0, 0, 1e-3);
+    int plate = scene_add_sheet(&scene.mesh, 2, SCENE_QUADS, 3, 3, 0.12, 0.12, -0.02, -0.02, 0);
+    scene_write_speed(&scene.deck, sheet, plate, 0, 0, -5);
+    scene_write_contact(
+        &scene.deck,
+        &(SceneContact){.keyword = "AUTOMATIC_NODES_TO_SURFACE", .a = 1, .b = 2, .a_type = 3, .b_type = 3, .vdc = vdc});
+    scene_end(&scene.deck, &scene.mesh);
+    VerifyRun run;
+    verify_scene(&run, &scene, &(VerifyOptions){.every = 1});
+    report(&run);
+
+    double v = mean_speed(&run, sheet, plate, 2);
+    verify_near("speed after over speed before", v / 5, expected, tolerance);
+    check_end(&run, 1e-3);
+    verify_free(&run);
+}
+
+static void sheet_on_plate(void **state)
+{
+    (void)state;
+    bounce(SCENE_QUADS, 0, 1, 0.01);
+    bounce(SCENE_DIAGONAL, 0, 1, 0.01);
+}
+
+/* Largest change of total momentum over the run, over the momentum that one sheet brings. */
+typedef struct Momentum {
+    double start[3], change, scale;
+    bool begun;
+} Momentum;
+
+static void watch_momentum(void *user, const Model *model, const State *state, const StepView *view)
+{
+    (void)state;
+    Momentum *p = user;
+    double sum[3] = {0};
+    for (int n = 0; n < model->node_count; n++)
+        for (int k = 0; k < 3; k++) sum[k] += model->mass[n] * view->v[3 * n + k];
+    for (int k = 0; k < 3; k++) {
+        if (!p->begun) p->start[k] = sum[k];
+        p->change = fmax(p->change, fabs(sum[k] - p->start[k]));
+    }
+    p->begun = true;
+}
+
+/* Two loose sheets of different meshes meet: momentum to rounding, and equal masses exchange their speeds. */
+static void collide(const char *keyword, bool self, ScenePattern one, ScenePattern other, double fs)
+{
+    Scene scene = {0};
+    begin(&scene, 0.8e-3);
+    int lower = scene_add_sheet(&scene.mesh, 1, one, 7, 6, 0.08, 0.08, 0, 0, 0);
+    int upper = scene_add_sheet(&scene.mesh, 3, other, 6, 8, 0.08, 0.08, 0, 0, 1e-3);
+    scene_write_speed(&scene.deck, upper, scene.mesh.node_count, 0.5, 0, -5);
+    scene_write_contact(&scene.deck, &(SceneContact){.keyword = keyword,
+                                                     .a = self ? 0 : 1,
+                                                     .b = self ? 0 : 3,
+                                                     .a_type = self ? 5 : 3,
+                                                     .b_type = self ? 0 : 3,
+                                                     .fs = fs,
+                                                     .fd = fs});
+    scene_end(&scene.deck, &scene.mesh);
+    Momentum momentum = {.scale = density * thickness * 0.08 * 0.08 * 5};
+    VerifyRun run;
+    verify_scene(&run, &scene, &(VerifyOptions){.every = 1, .probe = watch_momentum, .user = &momentum});
+    report(&run);
+    verify_near("change of momentum", momentum.change / momentum.scale, 0, 1e-10);
+    verify_between("speed of the sheet hit", -mean_speed(&run, lower, upper, 2) / 5, 0.8, 1.01);
+    check_end(&run, 2e-3);
+    verify_free(&run);
+}
+
+static void momentum_is_kept(void **state)
+{
+    (void)state;
+    collide("AUTOMATIC_SINGLE_SURFACE", true, SCENE_QUADS, SCENE_DIAGONAL, 0);
+    collide("AUTOMATIC_SURFACE_TO_SURFACE", false, SCENE_ACROSS, SCENE_DIAGONAL, 0.3);
+    collide("AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE", false, SCENE_CROSS, SCENE_QUADS, 0.3);
+}
+
+/* A sheet slides on a plate under a body force: it slows down by mu g, and stays where mu g exceeds the pull. */
+static void slide(double fs, double fd, double dc, double speed, double pull, double expected, double tolerance)
+{
+    const double g = 1000;
+    Scene scene = {0};
+    begin(&scene, 4e-3);
+    int sheet = scene_add_sheet(&scene.mesh, 1, SCENE_QUADS, 4, 4, 0.04, 0.04, 0.0013, 0.0007, thickness);
+    int plate = scene_add_sheet(&scene.mesh, 2, SCENE_QUADS, 3, 3, 0.12, 0.12, -0.03, -0.03, 0);
+    scene_write_speed(&scene.deck, sheet, plate, speed, 0, 0);
+    scene_print(&scene.deck, "*LOAD_BODY_Z\n1,%g\n*LOAD_BODY_X\n1,%g\n", g, -pull);
+    scene_write_curve(&scene.deck, 1, 2, (const double[]){0, 1, 1, 1});
+    scene_write_contact(&scene.deck, &(SceneContact){.keyword = "AUTOMATIC_SURFACE_TO_SURFACE",
+                                                     .a = 1,
+                                                     .b = 2,
+                                                     .a_type = 3,
+                                                     .b_type = 3,
+                                                     .fs = fs,
+                                                     .fd = fd,
+                                                     .dc = dc,
+                                                     .vdc = 20});
+    scene_end(&scene.deck, &scene.mesh);
+    VerifyRun run;
+    verify_scene(&run, &scene, &(VerifyOptions){.every = 1});
+    report(&run);
+    verify_near("speed at the end", mean_speed(&run, sheet, plate, 0), expected, tolerance);
+    if (expected > 0) check_end(&run, 2e-3);
+    verify_free(&run);
+}
+
+static void friction(void **state)
+{
+    (void)state;
+    slide(0.3, 0.3, 0, 3, 0, 3 - 0.3 * 1000 * 4e-3, 0.01);
+    slide(0.3, 0.3, 0, 0, 500, (500 - 300) * 4e-3, 0.01);
+    slide(0.3, 0.3, 0, 0, 250, 0, 0.002);
+    slide(0.5, 0.2, 1e3, 3, 0, 3 - 0.2 * 1000 * 4e-3, 0.01);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sheet_on_plate), cmocka_unit_test(momentum_is_kept),
+                                       cmocka_unit_test(friction)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

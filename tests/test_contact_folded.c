@@ -1,0 +1,51 @@
+/* A folded bag of eight layers begins to unfold against itself: no layer passes through another, energy is kept. */
+#include "tests/verify.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "contact/contact_check.h"
+
+enum { CELLS = 72 }; /* 20,736 elements */
+
+static const double unfolding = 2.5e-3; /* the layers part, at up to 0.6 of a thickness per step */
+
+static void report(const VerifyRun *run)
+{
+    const ContactClock *contact = run->state.contact;
+    print_message(
+        "    %ld cycles, %.1f s, %.0f ns per element and cycle; %ld meetings too fast, %ld pairs lost; contact %.2f %% "
+        "of the largest energy\n",
+        (long)run->cycles, run->times.total,
+        1e9 * run->times.total / ((double)run->cycles * run->model.deformable_count), (long)contact->fast,
+        (long)contact->lost, 100 * run->state.energy->contact / run->energy);
+}
+
+static void unfolds(void **state)
+{
+    (void)state;
+    Scene scene = {0};
+    VerifyRun run;
+    ContactFindings findings;
+    scene_folded_bag(&scene, CELLS, 0);
+    verify_scene(&run, &scene, &(VerifyOptions){.every = 50, .stop_time = unfolding, .threads = 2});
+    report(&run);
+    const Energies *e = run.state.energy;
+    verify_between("least energy ratio", e->ratio_min, 0.99, 1.01);
+    verify_between("largest energy ratio", e->ratio_max, 0.99, 1.01);
+    assert_int_equal(contact_inspect(&run.model, run.model.contacts, run.internal_x, &findings, NULL, NULL), 0);
+    assert_int_equal(findings.cross_count, 0); /* of edges and triangles: layers keep their order */
+    assert_int_equal(run.state.contact->fast, 0);
+    assert_int_equal(run.state.contact->lost, 0);
+    verify_free(&run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(unfolds)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,153 @@
+/* *CONTACT cards: fields, optional cards, and everything that is wrong, all in one list. */
+#include "tests/keyword_case.h"
+
+#include "contact/contact_check.h"
+#include "tests/verify.h"
+
+static void test_cards(void **state)
+{
+    (void)state;
+    KeywordCase c = read_fine("*CONTACT_AIRBAG_SINGLE_SURFACE_ID\n"
+                              "        12folded bag\n"
+                              "         7         0         2         0\n"
+                              "       0.3       0.2      1e-3                  20         0      0.01       0.5\n"
+                              "       2.0       0.5     4e-04                 0.9                 1.5\n"
+                              "         2       0.2         0     1.025         3         5       100         1\n"
+                              "                   1         2\n"
+                              "         1         2\n"
+                              "         0\n"
+                              "         0\n"
+                              "*CONTACT_AUTOMATIC_NODES_TO_SURFACE_MPP\n"
+                              "         0       200\n"
+                              "&        1\n"
+                              "         3         4         4         0\n"
+                              "\n"
+                              "\n"
+                              "*CONTROL_CONTACT\n"
+                              "      0.05\n"
+                              "\n"
+                              "\n"
+                              "         1         0         1\n");
+    assert_int_equal(c.d.contacts.count, 2);
+    const ContactDefinition *k = c.d.contacts.items;
+    assert_int_equal(k->kind, CONTACT_SELF);
+    assert_true(k->automatic);
+    assert_int_equal(k->id, 12);
+    assert_string_equal(k->title, "folded bag");
+    assert_int_equal(k->ssid, 7);
+    assert_int_equal(k->sstyp, 2);
+    assert_true(k->fs == 0.3 && k->fd == 0.2 && k->dc == 1e-3 && k->vdc == 20 && k->birth == 0.01 && k->death == 0.5);
+    assert_true(k->sfs == 2 && k->sfm == 0.5 && k->sst == 4e-4 && k->mst == 0 && k->sfst == 0.9 && k->fsf == 1.5);
+    assert_int_equal(k->soft, 2);
+    assert_true(k->sofscl == 0.2);
+    assert_int_equal(k->thkopt, 1);
+    assert_int_equal(k->shlthk, 2);
+    assert_int_equal(k->ignore, 2);
+    assert_int_equal(k[1].kind, CONTACT_NODES_TO_SURFACE);
+    assert_int_equal(k[1].sstyp, 4);
+    assert_true(k[1].death == 1e20 && k[1].sfs == 1 && k[1].sofscl == 0.1);
+    assert_true(c.d.control.contact.slsfac == 0.05);
+    assert_int_equal(c.d.control.contact.ignore, 1);
+    assert_int_equal(count_notes(&c, "SBOPT"), 1);
+    assert_int_equal(count_notes(&c, "SKIPRWG"), 1);
+    close_case(&c);
+}
+
+static void test_wrong_fields(void **state)
+{
+    (void)state;
+#define CONTACT(kind, cards) "*CONTACT_" kind "\n" cards
+    assert_one_error(CONTACT("AUTOMATIC_SINGLE_SURFACE", "1,0,7\n\n\n"), 2, "*CONTACT_AUTOMATIC_SINGLE_SURFACE",
+                     "SSTYP = 7");
+    assert_one_error(CONTACT("AUTOMATIC_SURFACE_TO_SURFACE", "1,2,4,3\n\n\n"), 2,
+                     "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE", "SSTYP = 4");
+    assert_one_error(CONTACT("AUTOMATIC_SURFACE_TO_SURFACE", "1,0,3,3\n\n\n"), 2,
+                     "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE", "MSID");
+    assert_one_error(CONTACT("AUTOMATIC_SINGLE_SURFACE", "1,0,2\n-1.0\n\n"), 3, "*CONTACT_AUTOMATIC_SINGLE_SURFACE",
+                     "FS = -1");
+    assert_one_error(CONTACT("AUTOMATIC_SINGLE_SURFACE", "1,0,2\n0,0,0,1e6\n\n"), 3,
+                     "*CONTACT_AUTOMATIC_SINGLE_SURFACE", "VC");
+    assert_one_error(CONTACT("AUTOMATIC_SINGLE_SURFACE", "1,0,2\n\n\n4\n"), 5, "*CONTACT_AUTOMATIC_SINGLE_SURFACE",
+                     "SOFT = 4");
+    KeywordCase c = read_case(CONTACT("AUTOMATIC_SINGLE_SURFACE", "1,0,2\n"));
+    assert_int_equal(c.g.errors, 2); /* cards 2 and 3 are missing */
+    close_case(&c);
+    assert_one_error("*CONTACT_AUTOMATIC_SINGLE_SURFACE_SMOOTH\n1,0,2\n\n\n", 1,
+                     "*CONTACT_AUTOMATIC_SINGLE_SURFACE_SMOOTH", "SMOOTH");
+}
+
+static const char model_head[] = "*CONTROL_TERMINATION\n1e-4\n"
+                                 "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
+                                 "*ELEMENT_SHELL\n1,1,1,2,3,4\n2,2,5,6,7,8\n"
+                                 "*PART\nlower\n1,1,1\n*PART\nupper\n2,2,2\n*PART\nempty\n3,1,1\n"
+                                 "*SECTION_SHELL\n1,9\n0.01\n*SECTION_SHELL\n2,9\n0\n"
+                                 "*MAT_ELASTIC\n1,800,1e6,0.3\n*MAT_NULL\n2,800\n"
+                                 "*MAT_NULL\n3,800\n";
+
+/* Builds the model with these cards; each expected text must be in one error. */
+static void expect_errors(const char *cards, int count, const char *const *expected)
+{
+    char text[4000];
+    VerifyRun run;
+    snprintf(text, sizeof text, "%s%s*END\n", model_head, cards);
+    int status = verify_build(&run, text, strlen(text), &(VerifyOptions){0});
+    int found = 0;
+    for (int i = 0; i < count; i++) found += verify_message(&run.diagnostics, SEVERITY_ERROR, expected[i]);
+    if (run.diagnostics.errors != count || found != count) diagnostics_print(&run.diagnostics, SEVERITY_NOTE, stderr);
+    assert_int_equal(status ? 1 : 0, count > 0);
+    assert_int_equal(run.diagnostics.errors, count);
+    assert_int_equal(found, count);
+    assert_int_equal(diagnostics_exit_code(&run.diagnostics), count ? BILLOW_EXIT_INPUT : BILLOW_EXIT_NORMAL);
+    verify_free(&run);
+}
+
+/* All that is wrong comes at once. */
+static void test_wrong_surfaces(void **state)
+{
+    (void)state;
+    expect_errors("*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n1,99,3,3\n\n\n"
+                  "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n77,0,2\n\n\n"
+                  "*CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE\n1,5,3,0\n\n\n"
+                  "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n3,3,3,3\n\n\n"
+                  "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n2,0,3\n\n\n"
+                  "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n1,0,3,0,8\n\n\n"
+                  "*CONTACT_AIRBAG_SINGLE_SURFACE\n1,0,3\n\n\n0,0,44\n",
+                  8,
+                  (const char *const[]){"MSID = 99 is not a part", "no set 77", "no segment set 5",
+                                        "SSID = 3 of type 3 holds no shells", "MSID = 3 of type 3 holds no shells",
+                                        "thickness of all shells of this contact is zero", "box 8 of SBOXID",
+                                        "LCIDAB"});
+    expect_errors("*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n1,2,3,3\n\n\n", 0, NULL);
+    expect_errors("*CONTACT_NODES_TO_SURFACE\n2,2,3,3\n\n\n", 0, NULL);
+}
+
+/* Near, touching and crossing layers are found where they are. */
+static void test_inspection(void **state)
+{
+    (void)state;
+    static const char deck[] =
+        "*CONTROL_TERMINATION\n1e-4\n"
+        "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0.2,0.2,0.004\n6,0.8,0.2,0.02\n7,0.8,0.8,0.02\n"
+        "8,0.2,0.8,0.02\n9,0.5,0.4,-1\n10,0.5,0.6,-1\n11,0.5,0.5,1\n"
+        "*ELEMENT_SHELL\n1,1,1,2,3,4\n2,1,5,6,7,8\n3,1,9,10,11,11\n"
+        "*PART\nsheet\n1,1,1\n*SECTION_SHELL\n1,9\n0.01\n*MAT_ELASTIC\n1,800,1e6,0.3\n"
+        "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n0,0,5\n\n\n*END\n";
+    VerifyRun run;
+    ContactFindings f;
+    assert_int_equal(verify_build(&run, deck, strlen(deck), &(VerifyOptions){0}), 0);
+    assert_int_equal(contact_inspect(&run.model, run.model.contacts, run.model.initial, &f, NULL, NULL), 0);
+    assert_int_equal(f.near_count, 1);
+    assert_int_equal(f.touch_count, 0);
+    assert_int_equal(run.model.node_id[f.nearest_node], 5);
+    verify_close("nearest over the thickness", f.nearest, 0.4, 1e-12);
+    /* two edges of the upright triangle through two sheets, and the sheets' diagonals through the triangle */
+    assert_int_equal(f.cross_count, 6);
+    verify_free(&run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cards), cmocka_unit_test(test_wrong_fields),
+                                       cmocka_unit_test(test_wrong_surfaces), cmocka_unit_test(test_inspection)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

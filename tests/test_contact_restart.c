@@ -1,0 +1,47 @@
+/* A run with contact that is interrupted has the same bits as one that is not, whatever is written in between. */
+#include "tests/verify.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "tests/contact_scene.h"
+
+static uint64_t run_in_pieces(int pieces, int threads, int every)
+{
+    enum { CYCLES = 480 };
+    Scene scene = {0};
+    VerifyRun run;
+    scene_crumple(&scene);
+    VerifyOptions options = {.threads = threads, .stop = CYCLES / pieces, .every = every, .energy_limit = 1e9};
+    verify_scene(&run, &scene, &options);
+    for (int i = 2; i <= pieces; i++) {
+        run.options.stop = CYCLES * i / pieces;
+        if (verify_loop(&run)) fail_msg("%s", run.failure.cause);
+    }
+    uint64_t hash = state_hash(&run.state);
+    print_message("    %d pieces, %d threads: %d pairs in contact, contact %.1f %% of the energy, %016llx\n", pieces,
+                  threads, (int)run.state.contact_memories[0],
+                  100 * run.state.energy->contact / run.state.energy->largest, (unsigned long long)hash);
+    assert_true(run.state.contact_memories[0] > 50);
+    verify_free(&run);
+    return hash;
+}
+
+static void same_bits(void **state)
+{
+    (void)state;
+    uint64_t whole = run_in_pieces(1, 1, 0);
+    assert_true(run_in_pieces(1, 1, 7) == whole);
+    assert_true(run_in_pieces(2, 2, 0) == whole);
+    assert_true(run_in_pieces(12, 1, 0) == whole);
+    assert_true(run_in_pieces(40, 3, 0) == whole);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(same_bits)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
