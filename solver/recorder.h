@@ -29,6 +29,7 @@ typedef struct Recorder {
     bool stopped_by_user;
     bool write_failed; /* results or checkpoint could not be written: the run ends */
     bool energy_warned, fabric_warned, fast_warned, lost_warned;
+    int energy_off; /* cycles in a row with the balance beyond the warning's limit */
     bool seams_watched;
     double seams_from;        /* time of the last cycle if seams_watched: those that tore since are logged */
     double next_look;         /* wall time of the next look at d3kil */

@@ -169,8 +169,9 @@ static void gather(const RigidBody *body, RigidState *state, const double *x, co
     memcpy(state->moment, moment, sizeof moment);
 }
 
+/* at_start: before it nothing moved, so that forces are counted with the velocity after it (eq. L4a). */
 static void step_translation(const RigidBody *body, RigidState *state, const RigidField *field, const RateRows *rows,
-                             double dt_mean, RigidWork *work)
+                             double dt_mean, bool at_start, RigidWork *work)
 {
     double mean[3];
     for (int i = 0; i < 3; i++) {
@@ -189,7 +190,9 @@ static void step_translation(const RigidBody *body, RigidState *state, const Rig
         work->forces += state->force[i] * v_mean * dt_mean;
         work->gravity += body->mass * field->gravity[i] * v_mean * dt_mean;
         work->damping += drag * v_mean;
-        work->reaction += body->mass * (state->v[i] - unconstrained[i]) * v_mean;
+        double impulse = body->mass * (state->v[i] - unconstrained[i]);
+        work->reaction += impulse * v_mean;
+        if (at_start && impulse != 0.0) work->reaction -= state->force[i] * dt_mean * 0.5 * (state->v[i] - before[i]);
     }
 }
 
@@ -247,6 +250,7 @@ static void keep_full_step(const RigidBody *body, RigidState *state, const doubl
 static void step_rotation(const RigidBody *body, RigidState *state, const RigidField *field, const RateRows *rows,
                           double dt_mean, double dt_next, RigidWork *work)
 {
+    const bool at_start = !(2 * dt_mean - dt_next > 0);
     double before[3], spin_before[3], unconstrained[3], half_axes[9];
     memcpy(before, state->momentum, sizeof before);
     memcpy(spin_before, state->spin, sizeof spin_before);
@@ -259,7 +263,10 @@ static void step_rotation(const RigidBody *body, RigidState *state, const RigidF
         state->alpha[i] = (state->spin[i] - spin_before[i]) / dt_mean;
         work->forces += state->moment[i] * spin_mean * dt_mean;
         work->damping += 0.5 * field->damping[3 + i] * (before[i] + unconstrained[i]) * dt_mean * spin_mean;
-        work->reaction += (state->momentum[i] - unconstrained[i]) * spin_mean;
+        double impulse = state->momentum[i] - unconstrained[i];
+        work->reaction += impulse * spin_mean;
+        if (at_start && rows->count > 0)
+            work->reaction -= state->moment[i] * dt_mean * 0.5 * (state->spin[i] - spin_before[i]);
     }
 }
 
@@ -307,7 +314,7 @@ void rigid_body_step(const RigidBody *body, RigidState *state, const double *x, 
     memcpy(v_before, state->v, sizeof v_before);
     memcpy(momentum_before, state->momentum, sizeof momentum_before);
     gather(body, state, x, f);
-    step_translation(body, state, field, &translation, dt_mean, &done);
+    step_translation(body, state, field, &translation, dt_mean, !(2 * dt_mean - dt_next > 0), &done);
     step_rotation(body, state, field, &rotation, dt_mean, dt_next, &done);
     keep_full_step(body, state, v_before, momentum_before, dt_mean, dt_next);
     move_nodes(body, state, x, dt_next, v);

@@ -98,6 +98,7 @@ static void count_energy(Workspace *w, NodeSums *t)
 {
     const Model *m = w->model;
     double share = w->plan.dt_mean > 0.0 ? 0.5 * w->plan.dt_before / w->plan.dt_mean : 0.0;
+    const bool at_start = !(w->plan.dt_before > 0.0);
     for (int node = m->free_count; node < m->moving_count; node++) {
         int kind = w->special_kind[node - m->free_count];
         int class = m->node_class ? m->node_class[node] : 0;
@@ -114,6 +115,10 @@ static void count_energy(Workspace *w, NodeSums *t)
             t->support_before += impulse * old[k];
             /* at the start a prescribed velocity is a jump from rest: its work goes with the mean */
             t->support_after += impulse * (w->plan.dt_before > 0.0 ? v[k] : 0.5 * (old[k] + v[k]));
+            if (at_start && impulse != 0.0) { /* what it holds against is counted with v+ (eq. L4a) */
+                double held = w->force[3 * node + k] + m->mass[node] * w->class_gravity[3 * class + k];
+                t->support_after -= held * w->plan.dt_mean * 0.5 * change;
+            }
             t->damping += w->drag[3 * (node - m->free_count) + k] * 0.5 * (old[k] + v[k]) * w->plan.dt_mean;
             t->load_before += m->mass[node] * w->class_gravity[3 * class + k] * old[k];
             t->load_after += m->mass[node] * w->class_gravity[3 * class + k] * v[k];
@@ -154,7 +159,8 @@ void step_special(Workspace *w)
     if (m->wall_count > 0) step_walls_special(w, t);
     move_rigid_bodies(w, t);
     constraints_place_hanging(&m->constraints, state->v);
-    t->reaction += loads_points_work(&m->loads, m->curves, plan->time, state->x, w->before, state->v, plan->dt_mean);
+    t->reaction += loads_points_work(&m->loads, m->curves, plan->time, state->x,
+                                     plan->dt_before > 0.0 ? w->before : state->v, state->v, plan->dt_mean);
     gather_special(w, t, true);
     if (w->jets) step_jets_count_reaction(w, t);
     count_energy(w, t);

@@ -122,6 +122,14 @@ static void test_energy_warning(void **state)
     s.energy.kinetic = 0.959; /* 2.05 %, the other way */
     s.energy.ratio = 1.959 / 2.0;
     ask(&s, false);
+    ask(&s, false);
+    s.energy.kinetic = 1.0; /* two cycles: velocities that jump, nothing lost */
+    ask(&s, false);
+    s.energy.kinetic = 0.959;
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(s.diagnostics.warnings, 0);
+        ask(&s, false);
+    }
     assert_int_equal(s.diagnostics.warnings, 1);
     assert_non_null(strstr(s.diagnostics.messages[0].text, "cycle 7"));
     ask(&s, false);
