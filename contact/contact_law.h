@@ -13,6 +13,10 @@
 /* Least gap that a step may leave, as a share of the distance at which the pair begins to push (eq. C13). */
 #define CONTACT_FLOOR 0.3
 
+/* What a gap may close by in a step beyond the pair's velocity: shares of the thickness and of the way (eq. C8a). */
+#define CONTACT_JUMP 0.02
+#define CONTACT_JUMP_WAY 0.1
+
 /* (w dt)^2 of a pair by itself at a share of 1, as SOFSCL gives it; 0.1 is the default (eq. C4). */
 #define CONTACT_STIFFNESS 5.0
 
@@ -94,6 +98,15 @@ static inline void contact_begin(const ContactTouch *t, double normal_speed, dou
 {
     double came = normal_speed < 0.0 ? -normal_speed * before : 0.0;
     *m = (ContactMemory){.side = t->side, .distance = t->gap + came < t->thickness ? t->gap + came : t->thickness};
+}
+
+/* A gap that closes by more than the pair's velocity explains has jumped: onto another triangle or edge, or with lines
+ * that turn. What it jumped by does no work, so the distance gives way by it (eq. C8a). */
+static inline void contact_yield(const ContactTouch *t, double normal_speed, double before, ContactMemory *m)
+{
+    double way = before * vector3_norm(t->speed);
+    double jump = m->gap + before * normal_speed - t->gap - CONTACT_JUMP_WAY * way - CONTACT_JUMP * t->thickness;
+    if (jump > 0.0) m->distance -= jump;
 }
 
 /* Tangential force on the node: a spring that slips at the friction limit (eq. C9, C10). */
@@ -198,6 +211,7 @@ static inline int contact_push(const ContactLaw *law, ContactTouch *t, ContactMe
                 sums->fast_node = t->node[0];
             }
         }
+        if (!new_pair) contact_yield(t, normal_speed, law->before, m);
         m->gap = t->gap;
         if (t->gap > m->distance) /* an initial penetration that has eased (eq. C8) */
             m->distance = t->gap < t->thickness ? t->gap : t->thickness;

@@ -63,8 +63,9 @@ void step_close_energies(Workspace *w)
     e->mass_damping += (1.0 - passed) * t.damping;
     if (w->contact) {
         double *half = &w->state->contact->half; /* what contact forces take from the nodes is theirs */
-        e->contact = *half - before * w->contact->power;
-        *half = e->contact - after * w->contact->power_after;
+        double power = w->contact->power, rise = w->contact->power_after - power; /* eq. C14 */
+        e->contact = *half - before * (power + 0.5 * passed * rise);
+        *half = e->contact - after * (power + 0.5 * (1.0 + passed) * rise);
     }
     e->kinetic = t.kinetic;
     e->internal = e->hourglass = 0.0;
