@@ -36,6 +36,16 @@ static void make_sewn_bag(Scene *scene, const Options *options)
     scene_sewn_bag(scene, options->n);
 }
 
+static void make_folding_bag(Scene *scene, const Options *options)
+{
+    scene_folding_bag(scene, options->n, 0);
+}
+
+static void make_pressed_bag(Scene *scene, const Options *options)
+{
+    scene_folding_bag(scene, options->n, 20000);
+}
+
 static void make_cushion(Scene *scene, const Options *options)
 {
     scene_cushion(scene, options->n);
@@ -89,6 +99,8 @@ static const struct SceneName {
     {"driver-bag", "circular driver bag inflated from flat (-n rings)", make_driver_bag},
     {"cushion", "square cushion inflated from flat (-n cells per side)", make_cushion},
     {"sewn-bag", "disc and ellipse of one perimeter, sewn by their reference geometry (-n rings)", make_sewn_bag},
+    {"folding-bag", "driver bag to be folded, blown up by an inflator and damped (-n rings)", make_folding_bag},
+    {"pressed-bag", "the same under a constant pressure of 20 kPa (-n rings)", make_pressed_bag},
     {"landing-pad", "ring-shaped landing pad with a nozzle (-n cells across)", make_landing_pad},
     {"prestressed-cushion", "square cushion, inflated at the start, falls onto the floor (-n cells per side)",
      make_prestressed_cushion},

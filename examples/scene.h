@@ -137,10 +137,11 @@ typedef struct SceneFabric {
     bool cse;
     double density, ea, eb, gab, prba, prab;
     double el, prl, lratio, damp;
-    int aopt;         /* 0: edge n1-n2; 2: along the vector */
-    double vector[3]; /* for aopt = 2 */
-    double beta;      /* degrees */
-    bool elastic;     /* MAT_ELASTIC of E = ea, nu = prba instead */
+    int aopt;              /* 0: edge n1-n2; 2: along the vector */
+    double vector[3];      /* for aopt = 2 */
+    double beta;           /* degrees */
+    bool elastic;          /* MAT_ELASTIC of E = ea, nu = prba instead */
+    double tension_factor; /* TSRFAC */
 } SceneFabric;
 
 /* Isotropic fabric. */
@@ -246,6 +247,13 @@ void scene_sewn_bag(Scene *scene, int n);
 /* A square bag of 4 n^2 triangles (n a multiple of 4; 0: 72) folded in eight layers, gap apart (0: their thickness),
  * that unfolds against itself. */
 void scene_folded_bag(Scene *scene, int n, double gap);
+
+/* A bag of two discs in the plane z = 0, parts 1 (upper) and 2 (lower), whose fabric gives the tension of a folded mesh
+ * back; blown up by an inflator, or with pressure > 0 by this constant pressure, and damped until it rests. The bag as
+ * a whole; or its mesh, and its deck up to nodes and shells, for callers that fold it in between. */
+void scene_folding_bag(Scene *scene, int n, double pressure);
+void scene_folding_mesh(SceneMesh *mesh, int n);
+void scene_folding_deck(Scene *scene, double pressure);
 
 /* The speed benchmark: gas-filled cushion of about the given number of shells, orthotropic fabric FORM 0 with CSE. The
  * run takes about the given number of cycles. */

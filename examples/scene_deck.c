@@ -142,8 +142,13 @@ void scene_write_fabric(SceneText *deck, int material, const SceneFabric *fabric
     SCENE_CARD(deck, material, f->density, f->ea, f->eb, 0, f->prba, f->prab);
     scene_print(deck, "$      gab                           cse        el       prl    lratio      damp\n");
     SCENE_CARD(deck, f->gab, 0, 0, f->cse, f->el, f->prl, f->lratio, f->damp);
-    scene_print(deck, "$     aopt       flc       fac       ela      lnrc      form\n");
-    SCENE_CARD(deck, f->aopt, 0, 0, 0, 0, f->form);
+    if (f->tension_factor != 0.0) {
+        scene_print(deck, "$     aopt       flc       fac       ela      lnrc      form     fvopt    tsrfac\n");
+        SCENE_CARD(deck, f->aopt, 0, 0, 0, 0, f->form, 0, f->tension_factor);
+    } else {
+        scene_print(deck, "$     aopt       flc       fac       ela      lnrc      form\n");
+        SCENE_CARD(deck, f->aopt, 0, 0, 0, 0, f->form);
+    }
     scene_print(deck, "$             rgbrth     a0ref        a1        a2        a3\n");
     SCENE_CARD(deck, 0, 0, 0, f->vector[0], f->vector[1], f->vector[2]);
     scene_print(deck, "$       v1        v2        v3                              beta\n");
