@@ -1,4 +1,4 @@
-/* *CONSTRAINED_SPOTWELD. */
+/* *CONSTRAINED_SPOTWELD, *CONSTRAINED_TIED_NODES_FAILURE. */
 #include "io/keyword_table.h"
 
 #define AT(member) offsetof(SpotweldDefinition, member)
@@ -37,6 +37,32 @@ static void read_weld(KeywordRead *read)
     }
 }
 
+#define AT(member) offsetof(TiedNodesDefinition, member)
+static const FieldSpec tied_fields[] = {
+    CARD_INT("NSID", nsid, USED, ID_SET),
+    CARD_REAL("EPPF", eppf, USED, NONE),
+    CARD_INT("ETYPE", etype, REFUSED, NONE),
+};
+#undef AT
+static const CardSpec tied_cards[] = {{"card 1", "one for each set", CARD_FIELDS(tied_fields)}};
+
+static void read_tied(KeywordRead *read)
+{
+    while (keyword_more(read) && !read->out_of_memory) {
+        TiedNodesDefinition card = {0};
+        if (keyword_card(read, 0, &card, true, &card.source)) continue;
+        if (!keyword_check_id(read, card.nsid, "NSID", card.source)) continue;
+        if (card.eppf < 0.0) {
+            keyword_error(read, card.source,
+                          "EPPF is %g; give the effective strain at which the nodes come apart, or 0 if they never do",
+                          card.eppf);
+            continue;
+        }
+        TiedNodesDefinition *tied = KEYWORD_APPEND(read, read->definitions->tied_nodes);
+        if (tied) *tied = card;
+    }
+}
+
 static const KeywordSpec specs[] = {
     {.name = "*CONSTRAINED_SPOTWELD",
      .options = {"ID"},
@@ -47,6 +73,14 @@ static const KeywordSpec specs[] = {
          "The nodes move as one until (f_n/SN)^N + (f_s/SS)^M reaches 1 or the time reaches TF. Nodes at one place "
          "have no normal: their whole force counts against SN, or against SS if SN = 0. EP has no effect: "
          "fabric does not yield. The option FILTERED_FORCE is refused."},
+    {.name = "*CONSTRAINED_TIED_NODES_FAILURE",
+     .cards = tied_cards,
+     .card_count = 1,
+     .read = read_tied,
+     .remark = "The nodes of a set that lie at one place move as one until the mean effective strain of the deformable "
+               "shells around them, by volume, exceeds EPPF (docs/theory.md, X4 to X7); then all of that place come "
+               "apart. Fabric does not yield: the strain is the whole one, not its plastic part. EPPF = 0 never "
+               "breaks. ETYPE = 1 (solids) is refused."},
 };
 
 const KeywordFamily keyword_family_seams = {"Seams", specs, (int)(sizeof specs / sizeof *specs)};

@@ -38,6 +38,7 @@ void report_write_keywords(const Definitions *d, FILE *stream)
         {"boxes (*DEFINE_BOX)", d->boxes.count},
         {"hanging nodes (*CONSTRAINED_ADAPTIVITY)", d->adaptivities.count},
         {"seams (*CONSTRAINED_SPOTWELD)", d->spotwelds.count},
+        {"sets of tied nodes (*CONSTRAINED_TIED_NODES_FAILURE)", d->tied_nodes.count},
         {"output intervals (*DATABASE)", d->databases.count},
         {"history entries (*DATABASE_HISTORY)", d->histories.count},
         {"supports (*BOUNDARY_SPC)", d->spcs.count},
@@ -215,6 +216,7 @@ void report_write_conditions(const Model *model, FILE *stream)
         {"moving rigid bodies", model->rigid_body_count},
         {"springs, cables and trusses", model->link_count},
         {"pairs of nodes that a seam joins", model->seam_count},
+        {"places at which nodes are tied", model->ties.count},
     };
     bool any = false;
     write_heading("Supports and loads", stream);

@@ -161,6 +161,7 @@ static int run_stages(Builder *b)
     lump_masses(b);
     if (build_movement(b)) status = -1;
     if (build_seams(b)) status = -1;
+    if (build_ties(b)) status = -1;
     if (status) return -1;
     if (build_pressure_sets(b)) return -1;
     if (build_renumber(b) || build_contact_surfaces(b) || build_groups(b) || build_areas(b) || build_wall_nodes(b) ||
@@ -169,7 +170,7 @@ static int run_stages(Builder *b)
     set_origin(b);
     b->model->caps_push_rim = b->options->caps_push_rim;
     if (take_motion(b)) return -1;
-    if (build_seam_nodes(b)) return -1;
+    if (build_seam_nodes(b) || build_tie_nodes(b)) return -1;
     return build_sensors(b);
 }
 

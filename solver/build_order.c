@@ -98,6 +98,7 @@ static void classify_nodes(Builder *b, const Adjacency *a, unsigned char *class)
         for (int end = 0; end < 2; end++) class[b->model->links[i].node[end]] = CLASS_SPECIAL;
     mark_jet_nodes(b, class);
     mark_seam_nodes(b, class);
+    mark_tie_nodes(b, class);
     for (int i = 0; b->options->caps_push_rim && i < b->model->airbag_count; i++)
         for (int k = 0; k < b->closures[i].cap_count; k++)
             for (int c = 0; c < b->closures[i].caps[k].count; c++)

@@ -53,7 +53,7 @@ void mark_seam_nodes(const Builder *b, unsigned char *special)
 }
 
 /* What else acts on velocities would be at odds with a seam. */
-static void mark_bound(const Model *m, unsigned char *bound)
+void mark_bound_nodes(const Model *m, unsigned char *bound)
 {
     const Constraints *c = &m->constraints;
     for (int i = 0; i < c->support_count; i++) bound[c->supports[i].node] = 1;
@@ -96,7 +96,7 @@ int build_seam_nodes(Builder *b)
     const int errors = b->diagnostics->errors;
     unsigned char *bound = memory_alloc((size_t)m->node_count + 1, 1);
     if (!bound) return -1;
-    mark_bound(m, bound);
+    mark_bound_nodes(m, bound);
     for (int i = 0; i < m->seam_count; i++) {
         const SpotweldDefinition *card = &b->definitions->spotwelds.items[i];
         int32_t node[2];
@@ -115,8 +115,10 @@ int build_seam_nodes(Builder *b)
             }
     }
     memory_free(bound);
-    if (b->options->relax)
-        REFUSE(b, &b->definitions->spotwelds.items[0], "--relax does not know seams; leave out one of the two");
+    if (m->relax.kind != RELAX_NONE)
+        REFUSE(b, &b->definitions->spotwelds.items[0],
+               "the phase before the run (--relax, *CONTROL_DYNAMIC_RELAXATION) does not know seams; leave out one of "
+               "the two");
     warn_apart(b);
     return b->diagnostics->errors > errors ? -1 : 0;
 }

@@ -136,5 +136,9 @@ int build_seam_nodes(Builder *builder); /* in the model's order; after the motio
 void mark_seam_nodes(const Builder *builder, unsigned char *special); /* by build_renumber */
 int build_contacts(Builder *builder);         /* who meets whom, in deck order; after build_shells */
 int build_contact_surfaces(Builder *builder); /* triangles, edges, neighbours; after build_renumber */
+void mark_bound_nodes(const Model *model, unsigned char *bound);     /* held, driven, hanging, rigid or fixed nodes */
+int build_ties(Builder *builder);                                    /* tied nodes; after build_seams */
+int build_tie_nodes(Builder *builder);                               /* after build_seam_nodes */
+void mark_tie_nodes(const Builder *builder, unsigned char *special); /* by build_renumber */
 
 #endif

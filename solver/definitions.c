@@ -58,7 +58,8 @@ void definitions_free(Definitions *d)
                      d->reference_nodes.items,
                      d->reference_shells.items,
                      d->spotwelds.items,
-                     d->contacts.items};
+                     d->contacts.items,
+                     d->tied_nodes.items};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) memory_free(lists[i]);
     memset(d, 0, sizeof *d);
 }

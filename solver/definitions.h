@@ -45,6 +45,7 @@ typedef struct Definitions {
     LIST(BoxDefinition) boxes;
     LIST(AdaptivityDefinition) adaptivities;
     LIST(SpotweldDefinition) spotwelds;
+    LIST(TiedNodesDefinition) tied_nodes;
     ControlDefinitions control;
     LIST(DatabaseDefinition) databases;
     LIST(HistoryDefinition) histories;

@@ -10,4 +10,10 @@ typedef struct SpotweldDefinition { /* *CONSTRAINED_SPOTWELD */
     Source source;
 } SpotweldDefinition;
 
+typedef struct TiedNodesDefinition { /* *CONSTRAINED_TIED_NODES_FAILURE */
+    int nsid, etype;
+    double eppf;
+    Source source;
+} TiedNodesDefinition;
+
 #endif

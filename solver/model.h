@@ -29,6 +29,7 @@
 #include "solver/relax_control.h"
 #include "solver/rigid_body.h"
 #include "solver/seam.h"
+#include "solver/tie.h"
 
 typedef enum ElementKind {
     ELEMENT_TRIANGLE,  /* 3-node, constant strain */
@@ -168,7 +169,8 @@ typedef struct Model {
     int link_count;
     Link *links; /* springs, cables, trusses: elements/link.h */
     int seam_count;
-    Seam *seams; /* solver/seam.h */
+    Seam *seams;   /* solver/seam.h */
+    TieTable ties; /* solver/tie.h */
 
     int group_count, chunk_count, padded_count;
     ElementGroup *groups;

@@ -111,13 +111,17 @@ static void watch_sensors(const Recorder *recorder, const Model *model, const St
             log_write_event(recorder->log, state->clock, "the sensor of airbag %d fires", model->sensors[i].airbag_id);
 }
 
-/* One line for each seam that has torn since the last cycle. */
+/* One line for each seam and tie that has torn since the last cycle. */
 static void watch_seams(Recorder *recorder, const Model *model, const State *state)
 {
     for (int i = 0; recorder->seams_watched && i < model->seam_count; i++)
         if (state->seam_torn[i] >= recorder->seams_from && state->seam_torn[i] < state->clock->time)
             log_write_event(recorder->log, state->clock, "the seam between nodes %d and %d has torn",
                             model->node_id[model->seams[i].node[0]], model->node_id[model->seams[i].node[1]]);
+    for (int i = 0; recorder->seams_watched && i < model->ties.count; i++)
+        if (state->tie_broken[i] >= recorder->seams_from && state->tie_broken[i] < state->clock->time)
+            log_write_event(recorder->log, state->clock, "the tied nodes at node %d have come apart",
+                            model->node_id[model->ties.node[model->ties.ties[i].first_node]]);
     recorder->seams_from = state->clock->time;
     recorder->seams_watched = true;
 }
@@ -126,7 +130,7 @@ static bool recorder_due(void *user, const Model *model, const State *state, boo
 {
     Recorder *recorder = user;
     const double wall = progress_now();
-    if (model->seam_count > 0) watch_seams(recorder, model, state);
+    if (model->seam_count + model->ties.count > 0) watch_seams(recorder, model, state);
     recorder->asked = true;
     recorder->due = schedule_due(&recorder->plan, state->clock);
     recorder->want_checkpoint = recorder->want_checkpoint || schedule_checkpoint_due(&recorder->plan, state->clock);

@@ -51,6 +51,7 @@ static size_t lay_out(const Model *model, State *state)
     state->rigid = take(base, &used, (size_t)model->rigid_body_count * sizeof *state->rigid);
     state->link_energy = take(base, &used, (size_t)model->link_count * sizeof *state->link_energy);
     state->seam_torn = take(base, &used, (size_t)model->seam_count * sizeof *state->seam_torn);
+    state->tie_broken = take(base, &used, (size_t)model->ties.count * sizeof *state->tie_broken);
     state->wall = take(base, &used, (size_t)model->wall_count * sizeof *state->wall);
     state->wall_side = take(base, &used, (size_t)model->wall_count * (size_t)model->moving_count);
     state->sensor = take(base, &used, (size_t)model->sensor_count * sizeof *state->sensor);
@@ -197,6 +198,7 @@ int state_start_at(const Model *model, const double *x, State *state)
     for (int i = 0; i < model->wall_count; i++) state->wall[i].speed = model->walls[i].speed;
     start_references(model, state);
     for (int i = 0; i < model->seam_count; i++) state->seam_torn[i] = -1.0;
+    for (int i = 0; i < model->ties.count; i++) state->tie_broken[i] = -1.0;
     if (start_gas(model, state)) {
         state_free(state);
         return -1;

@@ -91,6 +91,7 @@ typedef struct State {
         contact_sharp; /* edges that meet edges and nodes that are deep, at the last search (Model.contact_edge_size) */
     ContactMemory *contact_memory; /* pairs in contact, as of the last cycle written (Model.contact_memory_size) */
     int32_t *contact_memories;     /* how many of each interface (contact_count) */
+    double *tie_broken;            /* likewise of each tie (ties.count); written by step_ties_act */
 } State;
 
 /* Bytes that a State of this model needs. */

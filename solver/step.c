@@ -10,6 +10,7 @@
 
 #include "elements/membrane.h"
 #include "solver/memory.h"
+#include "solver/step_ties.h"
 #include "solver/team.h"
 #include "solver/workspace.h"
 
@@ -53,6 +54,7 @@ static void run_chunk(Workspace *w, int number, int chunk)
     w->chunks[chunk] = (ChunkSums){0};
     kernels_for(w->kernels, group)(&input, &w->chunks[chunk]);
     if (group->has_reference) step_reference_chunk(w, number, chunk, &input, &w->chunks[chunk]);
+    if (m->ties.count > 0) step_ties_watch(w, number, chunk);
 }
 
 static int group_of_chunk(const Model *m, int chunk)
@@ -124,6 +126,8 @@ static int allocate(Workspace *w)
     w->newton = memory_alloc(3 * special + 1, sizeof(double));
     if (reference_work_create(m, w->state, &w->reference)) return -1;
     w->reference_jump = memory_alloc(m->has_reference ? (size_t)m->chunk_count + 1 : 1, sizeof(double));
+    w->tie_strain = memory_alloc((size_t)m->ties.slot_count + 1, sizeof(double));
+    w->tie_volume = memory_alloc((size_t)m->ties.slot_count + 1, sizeof(double));
     w->gas_pass = memory_alloc(((size_t)w->node_chunk_count + 1) * bags, sizeof *w->gas_pass);
     size_t walls = (size_t)m->wall_count;
     w->walls = memory_alloc(walls + 1, sizeof *w->walls);
@@ -136,7 +140,8 @@ static int allocate(Workspace *w)
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
                       w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
-                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume,    w->reference_jump};
+                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume,    w->reference_jump,
+                      w->tie_strain,    w->tie_volume};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
     return step_functions_allocate(w) || step_jets_allocate(w) ? -1 : 0;
@@ -151,7 +156,8 @@ static void release(Workspace *w)
                       w->before,        w->acceleration,   w->velocity,     w->part_kinetic,    w->part_momentum,
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
                       w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
-                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume,    w->reference_jump};
+                      w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume,    w->reference_jump,
+                      w->tie_strain,    w->tie_volume};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
     reference_work_free(w->model, &w->reference);
     step_functions_release(w);

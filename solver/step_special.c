@@ -4,6 +4,7 @@
 
 #include "solver/step_links.h"
 #include "solver/step_seams.h"
+#include "solver/step_ties.h"
 #include "solver/workspace.h"
 
 /* Forces of the special nodes; stress, bag and load pressure on the velocities before the step for the ledger. */
@@ -154,6 +155,7 @@ void step_special(Workspace *w)
     accelerate(w);
     memcpy(w->newton, state->v + first, (size_t)count * sizeof *w->newton);
     if (m->seam_count > 0) seams_act(m, state, plan->dt_mean);
+    if (m->ties.count > 0) step_ties_act(w);
     constraints_apply(&m->constraints, m->curves, plan->time, plan->dt_mean, plan->dt_next, state->x, m->initial,
                       m->mass, w->before, state->v, NULL);
     if (m->wall_count > 0) step_walls_special(w, t);

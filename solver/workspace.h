@@ -127,6 +127,7 @@ typedef struct Workspace {
                      * walls with mass keep those of free nodes too */
     double *acceleration, *velocity; /* full-step view, (node_count x 3); NULL until the first emit */
     double *part_kinetic, *part_momentum;
+    double *tie_strain, *tie_volume;    /* of the elements that ties watch, of this cycle (ties.slot_count) */
     double *lane_rate;                  /* squared frequency of each lane of the critical chunk */
     double *kept_history;               /* of one chunk */
     int critical_chunk, critical_group; /* with the largest frequency of this cycle */
