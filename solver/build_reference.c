@@ -11,6 +11,13 @@ enum { LISTED = 200 }; /* messages of one kind: the first ones tell what is wron
 
 static const char NODES[] = "*AIRBAG_REFERENCE_GEOMETRY", SHELLS[] = "*AIRBAG_SHELL_REFERENCE_GEOMETRY";
 
+/* Shells of a part whose reference is born after the start: their mass by the mesh, which counts, and as cut. */
+typedef struct LateMass {
+    double mesh, cut;
+    Source source; /* of the first one */
+    const char *keyword;
+} LateMass;
+
 /* What is being built. */
 typedef struct ReferenceBuild {
     Builder *b;
@@ -19,6 +26,7 @@ typedef struct ReferenceBuild {
     int32_t *stand; /* for which node of the mesh a panel's node stands, by majority, -1 none (node_count) */
     int32_t *votes; /* (node_count) */
     int32_t *uses;  /* shells at a panel's node (node_count) */
+    LateMass *late; /* (part_count) */
 } ReferenceBuild;
 
 static void report(Builder *b, Source source, const char *keyword, int *listed, const char *format, ...)
@@ -322,10 +330,30 @@ static int finish_shell(ReferenceBuild *r, int i, int *listed)
     sums->reference_mass += mass;
     sums->referred_area += record->area;
     sums->referred_mass += record->mass;
-    if (reference->birth > 0.0) return 0;
+    if (reference->birth > 0.0) {
+        LateMass *late = &r->late[record->part];
+        if (!late->keyword) *late = (LateMass){.source = reference->source, .keyword = reference->keyword};
+        late->mesh += record->mass;
+        late->cut += mass;
+        return 0;
+    }
     sums->mass += mass - record->mass;
     record->mass = mass;
     return 0;
+}
+
+/* Cloth that is born later keeps the mesh's mass: of a strongly shrunken one a small share of its own. */
+static void warn_of_light_cloth(const ReferenceBuild *r)
+{
+    for (int p = 0; p < r->b->model->part_count; p++) {
+        const LateMass *late = &r->late[p];
+        if (!(late->mesh < 0.5 * late->cut)) continue;
+        diagnostics_add(r->b->diagnostics, SEVERITY_WARNING, late->source, late->keyword,
+                        "part %d weighs %.4g for the whole run, by the mesh, because its reference is born after the "
+                        "start; as cut it weighs %.4g: so light a cloth flutters and takes short steps; without BIRTH "
+                        "and RGBRTH it has the weight as cut",
+                        r->b->model->parts[p].id, late->mesh, late->cut);
+    }
 }
 
 int build_reference(Builder *b)
@@ -334,7 +362,8 @@ int build_reference(Builder *b)
     if (d->reference_blocks.count == 0) return 0;
     ReferenceBuild r = {.b = b};
     b->references = memory_alloc((size_t)b->shell_count + 1, sizeof *b->references);
-    int status = b->references && !reference_table_build(d, &r.table) ? 0 : -1, listed = 0;
+    r.late = memory_alloc((size_t)b->model->part_count + 1, sizeof *r.late);
+    int status = b->references && r.late && !reference_table_build(d, &r.table) ? 0 : -1, listed = 0;
     if (!status) {
         for (size_t i = 0; i < d->reference_blocks.count; i++)
             if (d->reference_blocks.items[i].has_birth) r.birth = d->reference_blocks.items[i].birth;
@@ -344,10 +373,12 @@ int build_reference(Builder *b)
         drop_unused(b);
         for (int i = 0; i < b->shell_count; i++)
             if (finish_shell(&r, i, &listed)) status = -1;
+        warn_of_light_cloth(&r);
     }
     reference_table_free(&r.table);
     memory_free(r.stand);
     memory_free(r.votes);
     memory_free(r.uses);
+    memory_free(r.late);
     return status;
 }

@@ -145,6 +145,9 @@ static void births_follow_the_manual(void **state)
         build_with(&run, late, "*AIRBAG_SHELL_REFERENCE_GEOMETRY\n1,,11,12,15,14\n2,,12,13,16,15\n3,,15,16,17,17\n"),
         0);
     assert_true(group_of(&run, 0)->birth == 0.75);
+    /* panels of four times the area: the part keeps the mesh's mass, which is said */
+    assert_true(verify_message(&run.diagnostics, SEVERITY_WARNING, "part 1 weighs 7.5 for the whole run"));
+    assert_true(verify_message(&run.diagnostics, SEVERITY_WARNING, "as cut it weighs 30"));
     verify_free(&run);
 }
 
