@@ -21,18 +21,18 @@ typedef struct TableRange {
 static int cut_segments(Builder *b)
 {
     Model *m = b->model;
-    int count = 0;
+    int count = 0, length = m->chunk_count / BILLOW_LEAST_SEGMENTS;
+    length = length < 1 ? 1 : length > BILLOW_SEGMENT_CHUNKS ? BILLOW_SEGMENT_CHUNKS : length;
     for (int g = 0; g < m->group_count; g++) {
         int chunks = (m->groups[g].block_count + BILLOW_CHUNK - 1) / BILLOW_CHUNK;
-        count += (chunks + BILLOW_SEGMENT_CHUNKS - 1) / BILLOW_SEGMENT_CHUNKS;
+        count += (chunks + length - 1) / length;
     }
     m->segment_chunk = builder_alloc(b, (size_t)count + 1, sizeof *m->segment_chunk);
     m->row_start = builder_alloc(b, (size_t)count + 1, sizeof *m->row_start);
     if (!m->segment_chunk || !m->row_start) return -1;
     for (int g = 0; g < m->group_count; g++) {
         int chunks = (m->groups[g].block_count + BILLOW_CHUNK - 1) / BILLOW_CHUNK;
-        for (int c = 0; c < chunks; c += BILLOW_SEGMENT_CHUNKS)
-            m->segment_chunk[m->segment_count++] = m->groups[g].first_chunk + c;
+        for (int c = 0; c < chunks; c += length) m->segment_chunk[m->segment_count++] = m->groups[g].first_chunk + c;
     }
     m->segment_chunk[m->segment_count] = m->chunk_count;
     return 0;

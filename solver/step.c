@@ -57,29 +57,20 @@ static void run_chunk(Workspace *w, int number, int chunk)
     if (m->ties.count > 0) step_ties_watch(w, number, chunk);
 }
 
-static int group_of_chunk(const Model *m, int chunk)
+int step_group_of_chunk(const Model *m, int chunk)
 {
     int g = 0;
     while (g + 1 < m->group_count && m->groups[g + 1].first_chunk <= chunk) g++;
     return g;
 }
 
-int step_segment_owner(const Model *m, int segment, int64_t *before, int threads)
-{
-    int chunks = m->segment_chunk[segment + 1] - m->segment_chunk[segment];
-    int owner = (int)((2 * *before + chunks) * threads / (2 * m->chunk_count));
-    *before += chunks;
-    return owner;
-}
-
 void step_elements(Workspace *w, int thread, int threads)
 {
     const Model *m = w->model;
-    int64_t before = 0;
     for (int i = 0; i < m->segment_count; i++) {
         int s = m->segment_order[i], first = m->segment_chunk[s], end = m->segment_chunk[s + 1];
-        if (step_segment_owner(m, s, &before, threads) != thread) continue;
-        const int group = group_of_chunk(m, first);
+        if (step_segment_owner(w, i, threads) != thread) continue;
+        const int group = step_group_of_chunk(m, first);
         memset(w->rows + ROW_SIZE * (ptrdiff_t)m->row_start[s], 0,
                ROW_SIZE * (size_t)(m->row_start[s + 1] - m->row_start[s]) * sizeof *w->rows);
         for (int c = first; c < end; c++) run_chunk(w, group, c);
@@ -144,7 +135,7 @@ static int allocate(Workspace *w)
                       w->tie_strain,    w->tie_volume};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
-    return step_functions_allocate(w) || step_jets_allocate(w) ? -1 : 0;
+    return step_share_allocate(w) || step_functions_allocate(w) || step_jets_allocate(w) ? -1 : 0;
 }
 
 static void release(Workspace *w)
@@ -160,6 +151,7 @@ static void release(Workspace *w)
                       w->tie_strain,    w->tie_volume};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
     reference_work_free(w->model, &w->reference);
+    memory_free(w->segment_middle);
     step_functions_release(w);
     step_jets_release(w);
     contact_free(w->contact);

@@ -106,11 +106,9 @@ typedef void ChunkWork(Workspace *w, int jet, int chunk);
 static void do_own_chunks(Workspace *w, int number, int thread, int threads, ChunkWork *work)
 {
     const Model *m = w->model;
-    int64_t before = 0;
     for (int i = 0; i < m->segment_count; i++) {
         int segment = m->segment_order[i], chunk = m->jets[number].segment_chunk[segment];
-        int owner = step_segment_owner(m, segment, &before, threads);
-        if (owner == thread && chunk >= 0) work(w, number, chunk);
+        if (chunk >= 0 && step_segment_owner(w, i, threads) == thread) work(w, number, chunk);
     }
 }
 

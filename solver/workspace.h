@@ -128,6 +128,8 @@ typedef struct Workspace {
     double *acceleration, *velocity; /* full-step view, (node_count x 3); NULL until the first emit */
     double *part_kinetic, *part_momentum;
     double *tie_strain, *tie_volume;    /* of the elements that ties watch, of this cycle (ties.slot_count) */
+    double *segment_middle;             /* cost of the segments before, and half its own; -1: idle (segment_count) */
+    double segment_cost;                /* of all */
     double *lane_rate;                  /* squared frequency of each lane of the critical chunk */
     double *kept_history;               /* of one chunk */
     int critical_chunk, critical_group; /* with the largest frequency of this cycle */
@@ -161,9 +163,11 @@ typedef struct NodeKernels {
 } NodeKernels;
 extern const NodeKernels node_kernels_v2, node_kernels_v3, node_kernels_v4;
 
-/* The thread that has a segment: its middle is in the thread's share of the chunks, counted in the order of the nodes.
- * Called for all segments in Model.segment_order; *before, 0 at first, is carried along. */
-int step_segment_owner(const Model *model, int segment, int64_t *before, int threads);
+/* Shares of the element pass. The place of a segment in Model.segment_order; -1: no thread, nothing needs its elements.
+ */
+int step_share_allocate(Workspace *w);
+int step_segment_owner(const Workspace *w, int place, int threads);
+int step_group_of_chunk(const Model *model, int chunk);
 
 /* Phases of the cycle. */
 int step_bags(Workspace *w);                                           /* thread 0: gas of all bags to t_n; -1 failed */
