@@ -38,7 +38,8 @@ typedef struct NodeChunk {
 /* Which terms a loop has: constants of each, so that it has no branch. */
 enum {
     SEVERAL_PRESSURES = 1, /* nodes of the chunk are under different pressure sets */
-    BODY_TERMS = 2,        /* gravity, mass damping, stagnation pressure */
+    BODY_TERMS = 2,        /* gravity, mass damping, stagnation pressure, node by node */
+    BODY_UNIFORM = 4,      /* gravity and mass damping, the same for all nodes of the chunk */
 };
 
 ALWAYS_INLINE double total(const Pack part[SUM_PACKS])
@@ -137,7 +138,25 @@ ALWAYS_INLINE void keep_view(const ComponentPlace *at, Pack a, Pack full, Pack f
  * dt_next (eq. T1, T2). bag, load, stagnation, inverse, mass: of the components' nodes. */
 typedef struct NodeTerms {
     Pack bag[3], load[3], stagnation[3], inverse[3], mass[3];
+    Pack gravity[3], damping[3], reference[3]; /* of a uniform chunk */
+    bool damped;
 } NodeTerms;
+
+/* What a component gets beside stress and pressure. */
+typedef struct BodyTerms {
+    Pack gravity, damping, reference, stagnation;
+} BodyTerms;
+
+ALWAYS_INLINE BodyTerms body_terms(int terms, const NodeChunk *chunk, const NodeTerms *of, int third, int j)
+{
+    if (terms & BODY_UNIFORM) {
+        BodyTerms uniform = {of->gravity[third], of->damping[third], of->reference[third], pack_of(0.0)};
+        return uniform;
+    }
+    BodyTerms own = {loose_load(chunk->gravity + j), loose_load(chunk->damping + j), loose_load(chunk->reference + j),
+                     of->stagnation[third]};
+    return own;
+}
 
 ALWAYS_INLINE void integrate_pack(int terms, const CyclePlan *plan, const NodeChunk *chunk, const NodeTerms *of,
                                   int third, int j, const ComponentPlace *at, ComponentSums *sums)
@@ -146,19 +165,24 @@ ALWAYS_INLINE void integrate_pack(int terms, const CyclePlan *plan, const NodeCh
     Pack s = loose_load(chunk->area + j), old = loose_load(at->v), inverse = of->inverse[third], now, a;
     Pack bag = of->bag[third], load = of->load[third], f = loose_load(chunk->force + j) + (bag + load) * s;
     Pack mass = of->mass[third];
-    if (terms & BODY_TERMS) {
-        /* damping at the mean velocity: v+ (1 + D dt/2) = v- (1 - D dt/2) + D dt v_ref + a dt (eq. T4), stable for any
-         * D */
-        Pack gravity = loose_load(chunk->gravity + j), damping = loose_load(chunk->damping + j),
-             reference = loose_load(chunk->reference + j), stagnation = of->stagnation[third];
-        f += stagnation * s;
-        Pack pushed = f * inverse + gravity, d = damping * plan->dt_mean;
-        now = (old * (1.0 - 0.5 * d) + d * reference + pushed * plan->dt_mean) / (1.0 + 0.5 * d);
-        Pack mean = 0.5 * (old + now), drag = damping * (mean - reference);
-        a = pushed - drag;
-        sums->load_before[lane] += mass * (gravity * old);
-        sums->load_after[lane] += mass * (gravity * now);
-        sums->damping[lane] += mass * (drag * mean) - stagnation * (s * mean);
+    if (terms & (BODY_TERMS | BODY_UNIFORM)) {
+        const BodyTerms body = body_terms(terms, chunk, of, third, j);
+        if (terms & BODY_TERMS) f += body.stagnation * s;
+        Pack pushed = f * inverse + body.gravity;
+        if (terms & BODY_TERMS || of->damped) {
+            /* damping at the mean velocity: v+ (1 + D dt/2) = v- (1 - D dt/2) + D dt v_ref + a dt (eq. T4), stable for
+             * any D */
+            Pack d = body.damping * plan->dt_mean;
+            now = (old * (1.0 - 0.5 * d) + d * body.reference + pushed * plan->dt_mean) / (1.0 + 0.5 * d);
+            Pack mean = 0.5 * (old + now), drag = body.damping * (mean - body.reference);
+            a = pushed - drag;
+            sums->damping[lane] += mass * (drag * mean) - body.stagnation * (s * mean);
+        } else {
+            a = pushed;
+            now = old + pushed * plan->dt_mean;
+        }
+        sums->load_before[lane] += mass * (body.gravity * old);
+        sums->load_after[lane] += mass * (body.gravity * now);
     } else {
         a = f * inverse;
         now = old + plan->dt_mean * a;
@@ -254,6 +278,21 @@ ALWAYS_INLINE void finish_sums(int terms, const Workspace *w, int set, const Com
     out->load_after += w->load_pressure[set] * after;
 }
 
+/* The class of a uniform chunk in the order of its components: x y z x y z ... */
+static void fill_uniform(const Workspace *w, int first, NodeTerms *of)
+{
+    const Model *m = w->model;
+    ptrdiff_t class = 3 * (ptrdiff_t)(m->node_class ? m->node_class[first] : 0);
+    const double *damping = w->class_damping + class;
+    for (int i = 0; i < 3 * PACK_WIDTH; i++) {
+        int third = i / PACK_WIDTH, lane = i % PACK_WIDTH, k = i % 3;
+        of->gravity[third][lane] = w->class_gravity[class + k];
+        of->damping[third][lane] = damping[k];
+        of->reference[third][lane] = w->class_velocity[class + k];
+    }
+    of->damped = damping[0] != 0.0 || damping[1] != 0.0 || damping[2] != 0.0;
+}
+
 ALWAYS_INLINE void advance_chunk(int terms, Workspace *w, int first, int end, NodeSums *out)
 {
     NodeChunk chunk;
@@ -264,7 +303,8 @@ ALWAYS_INLINE void advance_chunk(int terms, Workspace *w, int first, int end, No
     chunk.first = first;
     chunk.count = end - first;
     gather_rows(w, &chunk);
-    if (terms) fill_terms(w, &chunk, terms);
+    if (terms & (SEVERAL_PRESSURES | BODY_TERMS)) fill_terms(w, &chunk, terms);
+    if (terms & BODY_UNIFORM) fill_uniform(w, first, &of);
     for (int k = 0; k < 3; k++) {
         of.bag[k] = pack_of(w->bag_pressure[set]);
         of.load[k] = pack_of(w->load_pressure[set]);
@@ -286,20 +326,29 @@ ALWAYS_INLINE void advance_chunk(int terms, Workspace *w, int first, int end, No
     finish_sums(terms, w, set, &sums, out);
 }
 
+static bool all_alike(const int32_t *value, int first, int end)
+{
+    int different = 0;
+    for (int i = first; i < end; i++) different |= value[i] ^ value[first];
+    return !different;
+}
+
 static void lean_chunk(Workspace *w, int first, int end, NodeSums *sums)
 {
-    const int32_t *set = w->model->node_pressure;
-    for (int i = first + 1; i < end; i++) {
-        if (set[i] == set[first]) continue;
+    if (all_alike(w->model->node_pressure, first, end))
+        advance_chunk(0, w, first, end, sums);
+    else
         advance_chunk(SEVERAL_PRESSURES, w, first, end, sums);
-        return;
-    }
-    advance_chunk(0, w, first, end, sums);
 }
 
 static void general_chunk(Workspace *w, int first, int end, NodeSums *sums)
 {
-    advance_chunk(SEVERAL_PRESSURES | BODY_TERMS, w, first, end, sums);
+    const Model *m = w->model;
+    if (!m->has_fluid && w->stagnation[m->node_pressure[first]] == 0.0 && all_alike(m->node_pressure, first, end) &&
+        (!m->node_class || all_alike(m->node_class, first, end)))
+        advance_chunk(BODY_UNIFORM, w, first, end, sums);
+    else
+        advance_chunk(SEVERAL_PRESSURES | BODY_TERMS, w, first, end, sums);
 }
 
 const NodeKernels BILLOW_NODE_TABLE = {lean_chunk, general_chunk};
