@@ -173,7 +173,8 @@ static const KeywordSpec specs[] = {
      .card_count = 4,
      .read = read_elastic,
      .remark = "Membranes only: Green strain and second Piola-Kirchhoff stress in the plane. AOPT 0, 2, 3 and minus a "
-               "coordinate system. What acts across the thickness has no effect."},
+               "coordinate system. What acts across the thickness has no effect."
+               " REF belongs to *INITIAL_FOAM_REFERENCE_GEOMETRY and is refused."},
     {.name = "*MAT_FABRIC_MAP",
      .aliases = {"*MAT_034M", "*MAT_34M"},
      .options = {"TITLE"},

@@ -88,7 +88,8 @@ static const KeywordSpec specs[] = {
      .read = read_mooney,
      .remark =
          "Membranes only, incompressible: PR must lie between 0.49 and 0.5 and has no other effect. A and B must be "
-         "given, not negative; they are not fitted to a test (card 2)."},
+         "given, not negative; they are not fitted to a test (card 2)."
+         " REF belongs to *INITIAL_FOAM_REFERENCE_GEOMETRY and is refused."},
     {.name = "*MAT_OGDEN_RUBBER",
      .aliases = {"*MAT_077_O", "*MAT_77_O"},
      .options = {"TITLE"},
@@ -98,7 +99,8 @@ static const KeywordSpec specs[] = {
      .remark =
          "Membranes only, incompressible: PR must lie between 0.49 and 0.5 and has no other effect. Terms of which "
          "both numbers are 0 are left out; MU ALPHA of the others must be positive. N > 0 (fit to a test), damping "
-         "by G and SIGF and viscoelastic cards are refused."},
+         "by G and SIGF and viscoelastic cards are refused."
+         " REF belongs to *INITIAL_FOAM_REFERENCE_GEOMETRY and is refused."},
 };
 
 const KeywordFamily keyword_family_rubber = {"Rubber", specs, (int)(sizeof specs / sizeof *specs)};

@@ -35,6 +35,7 @@ typedef struct KeywordSpec {
     void (*read)(struct KeywordRead *read); /* NULL unless state is KEYWORD_READ */
     const char *remark;                     /* what a user must know; the reason if it is ignored; "" if nothing */
     bool prefix; /* any further words after the name belong to it (families that are ignored as a whole) */
+    bool alone;  /* longer names are keywords of their own, not options */
 } KeywordSpec;
 
 /* One group of keywords, defined by one io/keyword_<name>.c. */

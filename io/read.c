@@ -24,7 +24,7 @@ static void report_unknown(const DeckBlock *block, const KeywordSpec *base, cons
     if (nearest) {
         diagnostics_add(diagnostics, SEVERITY_ERROR, block->source, block->keyword,
                         "there is no such keyword in billow " BILLOW_VERSION "; did you mean %s?", nearest);
-    } else if (base) {
+    } else if (base && !base->alone) {
         diagnostics_add(diagnostics, SEVERITY_ERROR, block->source, block->keyword,
                         "the option %s of %s is not read by billow " BILLOW_VERSION
                         "; remove the keyword if the model can do without it, or write it without this option",
