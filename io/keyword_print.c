@@ -96,6 +96,7 @@ void keyword_print_documentation(FILE *stream)
         fprintf(stream, "\n## %s\n", family->title);
         print_plain(family, KEYWORD_LOADED, "used by the loader", stream);
         print_plain(family, KEYWORD_IGNORED, "why it is skipped, with a note", stream);
+        print_plain(family, KEYWORD_REFUSED, "why it is an error, and what to use in its place", stream);
         for (int i = 0; i < family->count; i++)
             if (family->specs[i].state == KEYWORD_READ) print_keyword(&family->specs[i], stream);
     }

@@ -104,7 +104,6 @@ static void read_material(KeywordRead *read)
 
 static const KeywordSpec specs[] = {
     {.name = "*ELEMENT_SEATBELT",
-     .alone = true,
      .cards = belt_cards,
      .card_count = 1,
      .read = read_belt,

@@ -35,6 +35,7 @@ static const KeywordFamily *const families[] = {
     &keyword_family_control,
     &keyword_family_database,
     &keyword_family_ignored,
+    &keyword_family_refused,
 };
 
 int keyword_family_count(void)

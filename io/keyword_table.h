@@ -20,6 +20,7 @@ typedef struct CardSpec {
 typedef enum KeywordState {
     KEYWORD_READ,    /* has a reader */
     KEYWORD_IGNORED, /* steers output or numerics only: skipped with a note */
+    KEYWORD_REFUSED, /* known and not there: an error that says what to use in its place */
     KEYWORD_LOADED,  /* used up by the loader (io/card.h): parameters, includes, transformations */
 } KeywordState;
 
@@ -35,7 +36,6 @@ typedef struct KeywordSpec {
     void (*read)(struct KeywordRead *read); /* NULL unless state is KEYWORD_READ */
     const char *remark;                     /* what a user must know; the reason if it is ignored; "" if nothing */
     bool prefix; /* any further words after the name belong to it (families that are ignored as a whole) */
-    bool alone;  /* longer names are keywords of their own, not options */
 } KeywordSpec;
 
 /* One group of keywords, defined by one io/keyword_<name>.c. */
@@ -59,9 +59,9 @@ extern const KeywordFamily keyword_family_nodes, keyword_family_parts, keyword_f
     keyword_family_functions, keyword_family_coordinates, keyword_family_control, keyword_family_database,
     keyword_family_boundary, keyword_family_initial, keyword_family_load, keyword_family_airbag_laws,
     keyword_family_airbag_hybrid, keyword_family_porosity, keyword_family_airbag_connection, keyword_family_damping,
-    keyword_family_airbag, keyword_family_deck, keyword_family_ignored, keyword_family_rigidwall, keyword_family_solids,
-    keyword_family_rigid_bodies, keyword_family_links, keyword_family_seatbelt, keyword_family_reference_geometry,
-    keyword_family_seams, keyword_family_contact;
+    keyword_family_airbag, keyword_family_deck, keyword_family_ignored, keyword_family_refused,
+    keyword_family_rigidwall, keyword_family_solids, keyword_family_rigid_bodies, keyword_family_links,
+    keyword_family_seatbelt, keyword_family_reference_geometry, keyword_family_seams, keyword_family_contact;
 
 /* Cards of a rigid body's inertia, in *PART_INERTIA and *CONSTRAINED_NODAL_RIGID_BODY_INERTIA, for records of
  * InertiaCard; the reading of them all returns 0, or -1 after an error. */

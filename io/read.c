@@ -24,7 +24,7 @@ static void report_unknown(const DeckBlock *block, const KeywordSpec *base, cons
     if (nearest) {
         diagnostics_add(diagnostics, SEVERITY_ERROR, block->source, block->keyword,
                         "there is no such keyword in billow " BILLOW_VERSION "; did you mean %s?", nearest);
-    } else if (base && !base->alone) {
+    } else if (base) {
         diagnostics_add(diagnostics, SEVERITY_ERROR, block->source, block->keyword,
                         "the option %s of %s is not read by billow " BILLOW_VERSION
                         "; remove the keyword if the model can do without it, or write it without this option",
@@ -49,6 +49,11 @@ static bool read_block(const DeckText *deck, const DeckBlock *block, Definitions
     }
     if (spec->state == KEYWORD_IGNORED)
         diagnostics_add(diagnostics, SEVERITY_NOTE, block->source, block->keyword, "is not used: %s", spec->remark);
+    if (spec->state == KEYWORD_REFUSED) {
+        if (is_referred_to(block->keyword)) definitions->incomplete = true;
+        diagnostics_add(diagnostics, SEVERITY_ERROR, block->source, block->keyword,
+                        "is not read by billow " BILLOW_VERSION ": %s", spec->remark);
+    }
     if (spec->state != KEYWORD_READ) return true;
     const int errors = diagnostics->errors;
     CardReader cards = {block, 0, deck->parameters, diagnostics};

@@ -55,7 +55,7 @@ static void test_table_is_complete(void **state)
             assert_non_null(spec->remark);
             assert_true((spec->state == KEYWORD_READ) == (spec->read != NULL));
             assert_true((spec->state == KEYWORD_READ) == (spec->card_count > 0));
-            if (spec->state == KEYWORD_IGNORED) assert_true(spec->remark[0]);
+            if (spec->state == KEYWORD_IGNORED || spec->state == KEYWORD_REFUSED) assert_true(spec->remark[0]);
             for (int c = 0; c < spec->card_count; c++) {
                 int columns = 0;
                 assert_true(spec->cards[c].name[0]);
