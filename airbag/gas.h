@@ -134,6 +134,8 @@ typedef struct GasModel {
     double porosity_coefficient, porosity_area;                        /* CP23, AP23 */
     int porosity_coefficient_time_curve, porosity_area_pressure_curve; /* LCCP23, LCAP23 */
     int hole_count, leak_count;
+    bool vents_eroded; /* VNTOPT 2, 10: what erodes of the surface's parts (surface_parts) is a vent */
+    int surface_parts;
     GasHole *holes;      /* A23 < 0: vents that are parts (hole_count) */
     GasLeak *leaks;      /* OPT > 0: leaking parts (leak_count) */
     int exit_flow_curve; /* LOU, LCEFR: mass flow over gauge pressure */

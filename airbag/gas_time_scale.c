@@ -50,7 +50,8 @@ static double exit_scale(const GasModel *gas, const GasLaw *law, const Curve *cu
     if (!(state->opened > 0.0)) return CHAMBER_NO_SCALE;
     GasExit exit = gas_exit_flow(gas, law, curves, time, state->pressure, state->temperature);
     double flow = exit.vent + exit.porosity;
-    if (gas->hole_count + gas->leak_count > 0) flow = fmax(flow, state->mass_flow_out); /* as far as it is known */
+    if (gas->hole_count + gas->leak_count > 0 || gas->vents_eroded)
+        flow = fmax(flow, state->mass_flow_out); /* as far as it is known */
     if (!(flow > 0.0)) return CHAMBER_NO_SCALE;
     double gap = fmax((state->pressure - gas->ambient_pressure) / state->pressure, GAP_LEAST);
     return fmin(MASS_SHARE, GAP_SHARE * gap) * state->mass / flow;

@@ -25,10 +25,24 @@ static double constant_or_curve(double constant, const Curve *curves, int curve,
     return fmax(curve_value(&curves[curve], x), 0.0);
 }
 
+static bool is_hole(const GasModel *gas, int place)
+{
+    for (int i = 0; i < gas->hole_count; i++)
+        if (gas->holes[i].place == place) return true;
+    return false;
+}
+
+/* Eroded area of a part that is no vent by itself (eq. X11). */
+static double eroded_area(const GasModel *gas, const GasAreas *areas, int place)
+{
+    return areas && areas->eroded && gas->vents_eroded && !is_hole(gas, place) ? areas->eroded[place] : 0.0;
+}
+
 static double vent_opening(const GasModel *gas, const GasLaw *law, const Curve *curves, double time, double pressure)
 {
     double area = constant_or_curve(gas->vent_area, curves, gas->vent_area_pressure_curve, pressure);
     for (int i = 0; law->areas && i < gas->hole_count; i++) area += gas_hole_area(&gas->holes[i], law->areas);
+    for (int k = 0; gas->vents_eroded && k < gas->surface_parts; k++) area += eroded_area(gas, law->areas, k);
     if (!(area > 0.0)) return 0.0;
     double coefficient = gas->vent_coefficient;
     if (gas->vent_coefficient_time_curve >= 0) {
@@ -102,11 +116,20 @@ static void share_flow(const double *weight, int count, double total, double *fl
     for (int k = 0; sum > 0.0 && k < count; k++) flow[k] += total * (weight[k] / sum);
 }
 
+/* What of the vents' flow leaves through parts of these areas, and not through an exit of the card. */
+static double by_parts(const GasModel *gas, const Curve *curves, const GasState *state, const double *area, int count)
+{
+    const double exit = constant_or_curve(gas->vent_area, curves, gas->vent_area_pressure_curve, state->pressure);
+    double sum = 0.0;
+    for (int k = 0; k < count; k++) sum += area[k];
+    return sum > 0.0 ? state->mass_flow_out_vent * (sum / (sum + exit)) : 0.0;
+}
+
 void gas_part_flows(const GasModel *gas, const Curve *curves, const GasAreas *areas, const GasState *state, double time,
                     int count, double *weight, double *flow)
 {
     for (int k = 0; k < count; k++) flow[k] = 0.0;
-    if (gas->hole_count + gas->leak_count == 0) return;
+    if (gas->hole_count + gas->leak_count == 0 && !gas->vents_eroded) return;
     GasLaw law = gas_law_of(gas, state);
     law.areas = areas;
     for (int k = 0; k < count; k++) weight[k] = 0.0;
@@ -116,5 +139,6 @@ void gas_part_flows(const GasModel *gas, const Curve *curves, const GasAreas *ar
     share_flow(weight, count, state->mass_flow_out_porosity, flow);
     for (int k = 0; k < count; k++) weight[k] = 0.0;
     for (int i = 0; i < gas->hole_count; i++) weight[gas->holes[i].place] += gas_hole_area(&gas->holes[i], areas);
-    share_flow(weight, count, gas->exit_flow_curve < 0 ? state->mass_flow_out_vent : 0.0, flow);
+    for (int k = 0; k < count && k < gas->surface_parts; k++) weight[k] += eroded_area(gas, areas, k);
+    share_flow(weight, count, gas->exit_flow_curve < 0 ? by_parts(gas, curves, state, weight, count) : 0.0, flow);
 }

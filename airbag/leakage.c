@@ -7,6 +7,7 @@ double gas_hole_area(const GasHole *hole, const GasAreas *areas)
 {
     double area = areas->part[hole->place];
     if (hole->blocked) area -= areas->blocked[hole->place];
+    if (areas->eroded) area += areas->eroded[hole->place];
     if (hole->increase) area -= hole->initial_area;
     return fmax(area, 0.0);
 }

@@ -10,6 +10,7 @@
 typedef struct GasAreas {
     const double *part;    /* whole area */
     const double *blocked; /* the share of it that contact covers, as an area */
+    const double *eroded;  /* what has eroded of it, which is not in part any more; NULL: nothing erodes */
 } GasAreas;
 
 typedef enum LeakForm {

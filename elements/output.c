@@ -57,6 +57,10 @@ void membrane_result(const Model *model, const State *state, const double *x, in
         return;
     }
     int64_t place = slot - group->first_element;
+    if (group->erosion && state->eroded[slot]) { /* no stress, no strain */
+        result->thickness = thickness;
+        return;
+    }
     double own[REFERENCE_LANE_SIZE], corner[4][3];
     const double *geometry = reference_lane(model, state, number, place, own), *memory = NULL;
     if (state->history && law_memory_size(group->law, &group->material) > 0)

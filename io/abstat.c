@@ -32,7 +32,8 @@ static void write_row(FILE *csv, double time, int id, const GasState *gas)
 static void find_flows(const Model *model, const State *state, int k, double time, double *flow)
 {
     const Airbag *bag = &model->airbags[k];
-    GasAreas areas = {state->part_area + bag->first_part, state->part_blocked + bag->first_part};
+    GasAreas areas = {state->part_area + bag->first_part, state->part_blocked + bag->first_part,
+                      model->has_erosion ? state->part_eroded + bag->first_part : NULL};
     gas_part_flows(&bag->gas, model->curves, &areas, &state->gas[k], time, bag->part_count, flow + bag->part_count,
                    flow);
 }

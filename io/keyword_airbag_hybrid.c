@@ -238,7 +238,8 @@ static const KeywordSpec specs[] = {
          "draws in that share of ambient gas (of the composition INITM, at ATMOST). CC multiplies the energy in "
          "the speed of the exit flow. PVENT opens the exits for good. Outflow has the bag's composition by mass. Vents "
          "and "
-         "leakage as in WANG_NEFSKE; VNTOPT 1 and 10 count what a vent part has grown by; nothing erodes. The jet's "
+         "leakage as in WANG_NEFSKE; VNTOPT 1 and 10 count what a vent part has grown by, 2 and 10 what has eroded of "
+         "the walls. The jet's "
          "fields are those of WANG_NEFSKE_JETTING; its gas is the mixture that flows in, at its mixed temperature."},
     {.name = "*AIRBAG_HYBRID_CHEMKIN",
      .options = {"ID"},

@@ -30,6 +30,7 @@ static const KeywordFamily *const families[] = {
     &keyword_family_links,
     &keyword_family_seatbelt,
     &keyword_family_seams,
+    &keyword_family_erosion,
     &keyword_family_rigid_bodies,
     &keyword_family_contact,
     &keyword_family_control,

@@ -38,6 +38,7 @@ void report_write_keywords(const Definitions *d, FILE *stream)
         {"boxes (*DEFINE_BOX)", d->boxes.count},
         {"hanging nodes (*CONSTRAINED_ADAPTIVITY)", d->adaptivities.count},
         {"seams (*CONSTRAINED_SPOTWELD)", d->spotwelds.count},
+        {"erosion criteria (*MAT_ADD_EROSION)", d->erosions.count},
         {"sets of tied nodes (*CONSTRAINED_TIED_NODES_FAILURE)", d->tied_nodes.count},
         {"output intervals (*DATABASE)", d->databases.count},
         {"history entries (*DATABASE_HISTORY)", d->histories.count},

@@ -75,6 +75,7 @@ static int start_xdmf(Results *results, const Model *model)
     const XdmfMesh mesh = {.point_count = model->node_count,
                            .cell_count = model->element_count,
                            .topology_length = mixed ? corners + model->element_count : corners,
+                           .erodes = model->has_erosion,
                            .corner_count = mixed             ? 0
                                            : count.quads > 0 ? 4
                                                              : 3};

@@ -26,6 +26,7 @@ const VtkHdfData vtkhdf_data[DATA_COUNT] = {
     [DATA_STRAIN] = {"CellData/strain", 6, true, false},
     [DATA_THICKNESS] = {"CellData/thickness", 1, true, false},
     [DATA_CONTACT] = {"CellData/contact", 1, true, false},
+    [DATA_ERODED] = {"CellData/eroded", 1, true, false},
 };
 
 const VtkHdfColumn vtkhdf_columns[COLUMN_COUNT] = {
@@ -43,6 +44,7 @@ const VtkHdfColumn vtkhdf_columns[COLUMN_COUNT] = {
     {"CellDataOffsets/part_id", 0, ROWS_NONE},
     {"CellDataOffsets/element_id", 0, ROWS_NONE},
     {"CellDataOffsets/contact", 0, ROWS_CELLS},
+    {"CellDataOffsets/eroded", 0, ROWS_CELLS},
 };
 
 int vtkhdf_report_failure(VtkHdf *grid, const char *action)
@@ -72,12 +74,14 @@ VtkHdf *vtkhdf_allocate(const char *path, const Model *model, Diagnostics *diagn
     for (int i = 0; i < DATA_COUNT; i++) grid->data[i].dataset = -1;
     for (int i = 0; i < COLUMN_COUNT; i++) grid->columns[i].dataset = -1;
     grid->values.dataset = -1;
+    grid->data_count = model->has_erosion ? DATA_COUNT : DATA_ERODED;
+    grid->column_count = model->has_erosion ? COLUMN_COUNT : COLUMN_COUNT - 1;
     grid->points = (hsize_t)model->node_count;
     grid->cells = (hsize_t)model->element_count;
     grid->path = memory_alloc(strlen(path) + 1, 1);
     int most = model->node_count > model->element_count ? model->node_count : model->element_count;
     grid->piece = most > PIECE_ROWS ? PIECE_ROWS : most + 1;
-    grid->rows = memory_alloc((size_t)grid->piece * 14, sizeof(float));
+    grid->rows = memory_alloc((size_t)grid->piece * 15, sizeof(float));
     if (!grid->path || !grid->rows) {
         vtkhdf_close(grid);
         return NULL;
@@ -104,12 +108,12 @@ int vtkhdf_flush(VtkHdf *grid)
 static hsize_t state_bytes(const VtkHdf *grid)
 {
     hsize_t bytes = 0;
-    for (int i = 0; i < DATA_COUNT; i++) {
+    for (int i = 0; i < grid->data_count; i++) {
         hsize_t rows = vtkhdf_data[i].per_cell ? grid->cells : grid->points;
         if (rows > CHUNK_ROWS_LIMIT) rows = (rows / CHUNK_ROWS_LIMIT + 1) * CHUNK_ROWS_LIMIT;
         bytes += rows * (hsize_t)vtkhdf_data[i].components * (vtkhdf_data[i].is_double ? 8 : 4);
     }
-    return bytes + (COLUMN_COUNT + 1) * STEP_CHUNK * 8;
+    return bytes + (hsize_t)(grid->column_count + 1) * STEP_CHUNK * 8;
 }
 
 static int create_groups(VtkHdf *grid)
@@ -132,7 +136,7 @@ static int create_groups(VtkHdf *grid)
 /* One state is one chunk, so that its rows lie together in the file. */
 static int create_arrays(VtkHdf *grid)
 {
-    for (int i = 0; i < DATA_COUNT; i++) {
+    for (int i = 0; i < grid->data_count; i++) {
         hsize_t rows = vtkhdf_data[i].per_cell ? grid->cells : grid->points;
         hsize_t chunk = rows > CHUNK_ROWS_LIMIT ? CHUNK_ROWS_LIMIT : rows < 1 ? 1 : rows;
         bool is_double = vtkhdf_data[i].is_double;
@@ -141,7 +145,7 @@ static int create_arrays(VtkHdf *grid)
                               &grid->data[i]))
             return -1;
     }
-    for (int i = 0; i < COLUMN_COUNT; i++)
+    for (int i = 0; i < grid->column_count; i++)
         if (hdf5_create_array(grid->steps, vtkhdf_columns[i].name, H5T_STD_I64LE, H5T_NATIVE_INT64, 1, STEP_CHUNK,
                               &grid->columns[i]))
             return -1;
@@ -179,7 +183,7 @@ double vtkhdf_state_time(const VtkHdf *grid, int index)
 /* Makes room in every array for the rows of the coming state. */
 static int extend_arrays(VtkHdf *grid)
 {
-    for (int i = 0; i < DATA_COUNT; i++)
+    for (int i = 0; i < grid->data_count; i++)
         if (hdf5_resize_array(&grid->data[i],
                               (grid->count + 1) * (vtkhdf_data[i].per_cell ? grid->cells : grid->points)))
             return -1;
@@ -242,7 +246,8 @@ static int write_displacements(VtkHdf *grid, const Model *model, const double *x
 static int write_cell_data(VtkHdf *grid, const Model *model, const State *state, const double *x, const double *contact)
 {
     float *stress = (float *)(void *)grid->rows, *strain = stress + 6 * (ptrdiff_t)grid->piece,
-          *thickness = strain + 6 * (ptrdiff_t)grid->piece, *share = thickness + grid->piece;
+          *thickness = strain + 6 * (ptrdiff_t)grid->piece, *share = thickness + grid->piece,
+          *eroded = share + grid->piece;
     for (int first = 0; first < model->element_count; first += grid->piece) {
         int count = piece_length(grid, first, model->element_count);
         for (int e = 0; e < count; e++) {
@@ -254,11 +259,13 @@ static int write_cell_data(VtkHdf *grid, const Model *model, const State *state,
             }
             thickness[e] = (float)result.thickness;
             share[e] = contact_share(model, contact, first + e);
+            eroded[e] = model->has_erosion && state->eroded[model->element_slot[first + e]] ? 1.0f : 0.0f;
         }
         if (write_piece(grid, DATA_STRESS, first, count, stress) ||
             write_piece(grid, DATA_STRAIN, first, count, strain) ||
             write_piece(grid, DATA_THICKNESS, first, count, thickness) ||
-            write_piece(grid, DATA_CONTACT, first, count, share))
+            write_piece(grid, DATA_CONTACT, first, count, share) ||
+            (model->has_erosion && write_piece(grid, DATA_ERODED, first, count, eroded)))
             return -1;
     }
     return 0;
@@ -278,7 +285,7 @@ static int append_rows(VtkHdf *grid, const Model *model, const State *state, con
 static int append_step(VtkHdf *grid, double time)
 {
     const long long states = (long long)grid->count + 1;
-    for (int i = 0; i < COLUMN_COUNT; i++) {
+    for (int i = 0; i < grid->column_count; i++) {
         hsize_t stride = vtkhdf_columns[i].rows == ROWS_POINTS  ? grid->points
                          : vtkhdf_columns[i].rows == ROWS_CELLS ? grid->cells
                                                                 : 0;
@@ -311,8 +318,8 @@ static int close_handles(VtkHdf *grid)
 {
     int status = 0;
     errno = 0;
-    for (int i = 0; i < DATA_COUNT; i++) status |= hdf5_close_array(&grid->data[i]);
-    for (int i = 0; i < COLUMN_COUNT; i++) status |= hdf5_close_array(&grid->columns[i]);
+    for (int i = 0; i < grid->data_count; i++) status |= hdf5_close_array(&grid->data[i]);
+    for (int i = 0; i < grid->column_count; i++) status |= hdf5_close_array(&grid->columns[i]);
     status |= hdf5_close_array(&grid->values);
     if (grid->steps >= 0 && H5Gclose(grid->steps) < 0) status = -1;
     if (grid->root >= 0 && H5Gclose(grid->root) < 0) status = -1;

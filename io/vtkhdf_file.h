@@ -14,6 +14,7 @@ typedef enum DataArray {
     DATA_STRAIN,
     DATA_THICKNESS,
     DATA_CONTACT,
+    DATA_ERODED, /* the last: only of models with erosion */
     DATA_COUNT
 } DataArray;
 
@@ -33,7 +34,7 @@ typedef struct VtkHdfColumn {
     int base;
     RowsPerState rows;
 } VtkHdfColumn;
-enum { COLUMN_COUNT = 14 };
+enum { COLUMN_COUNT = 15 }; /* the last for DATA_ERODED */
 extern const VtkHdfColumn vtkhdf_columns[COLUMN_COUNT];
 
 struct VtkHdf {
@@ -41,14 +42,15 @@ struct VtkHdf {
     char *path;
     hid_t file, root, steps;
     HdfArray data[DATA_COUNT], columns[COLUMN_COUNT], values;
-    hsize_t points, cells; /* rows per state */
+    int data_count, column_count; /* of this model */
+    hsize_t points, cells;        /* rows per state */
     bool reported;
     bool broken; /* HDF5 failed: it must not be called for this file again, it may crash */
     DiskSpace space;
     double *times; /* of the states in the file (count) */
     size_t count, capacity;
     int piece;    /* rows of a state that are staged and written together */
-    double *rows; /* workspace for one piece: doubles (piece x 3) or floats (piece x 14) */
+    double *rows; /* workspace for one piece: doubles (piece x 3) or floats (piece x 15) */
 };
 
 /* Memory and names for a file that is not open yet; NULL without memory (reported). */

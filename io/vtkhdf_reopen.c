@@ -25,7 +25,7 @@ static int open_arrays(VtkHdf *grid, hsize_t *states)
     grid->steps = H5Gopen2(grid->root, "Steps", H5P_DEFAULT);
     if (grid->steps < 0) return -1;
     if (hdf5_open_array(grid->steps, "Values", H5T_NATIVE_DOUBLE, 1, &grid->values, states)) return -1;
-    for (int i = 0; i < DATA_COUNT; i++) {
+    for (int i = 0; i < grid->data_count; i++) {
         hsize_t per_state = vtkhdf_data[i].per_cell ? grid->cells : grid->points;
         if (hdf5_open_array(grid->root, vtkhdf_data[i].name,
                             vtkhdf_data[i].is_double ? H5T_NATIVE_DOUBLE : H5T_NATIVE_FLOAT, vtkhdf_data[i].components,
@@ -33,7 +33,7 @@ static int open_arrays(VtkHdf *grid, hsize_t *states)
             return -1;
         if (rows < *states * per_state) *states = rows / per_state;
     }
-    for (int i = 0; i < COLUMN_COUNT; i++) {
+    for (int i = 0; i < grid->column_count; i++) {
         if (hdf5_open_array(grid->steps, vtkhdf_columns[i].name, H5T_NATIVE_INT64, 1, &grid->columns[i], &rows))
             return -1;
         if (rows < *states) *states = rows;
@@ -46,10 +46,10 @@ static int set_state_count(VtkHdf *grid, size_t count)
 {
     const long long states = (long long)count;
     if (vtkhdf_reserve_space(grid, 0)) return -1;
-    for (int i = 0; i < DATA_COUNT; i++)
+    for (int i = 0; i < grid->data_count; i++)
         if (hdf5_resize_array(&grid->data[i], count * (vtkhdf_data[i].per_cell ? grid->cells : grid->points)))
             return -1;
-    for (int i = 0; i < COLUMN_COUNT; i++)
+    for (int i = 0; i < grid->column_count; i++)
         if (hdf5_resize_array(&grid->columns[i], count)) return -1;
     grid->count = count;
     return hdf5_resize_array(&grid->values, count) || hdf5_write_integers(grid->steps, "NSteps", 0, &states) ||

@@ -145,6 +145,7 @@ static const AttributeLayout attributes[] = {
     {"part_id", "/VTKHDF/CellData/part_id", "Scalar", "Int", 4, 1, true, true},
     {"element_id", "/VTKHDF/CellData/element_id", "Scalar", "Int", 4, 1, true, true},
     {"contact", "/VTKHDF/CellData/contact", "Scalar", "Float", 4, 1, true, false},
+    {"eroded", "/VTKHDF/CellData/eroded", "Scalar", "Float", 4, 1, true, false}, /* the last: if XdmfMesh.erodes */
 };
 
 static void add_topology(Text *text, const Xdmf *xdmf)
@@ -175,7 +176,8 @@ int xdmf_add_state(Xdmf *xdmf, int64_t state, double time)
     add_text(&text, "        <Geometry GeometryType=\"XYZ\">");
     add_rows(&text, xdmf, "/VTKHDF/Points", "Float", 8, 3, state * points, points);
     add_text(&text, "</Geometry>\n");
-    for (size_t i = 0; i < sizeof attributes / sizeof attributes[0]; i++) {
+    const size_t count = sizeof attributes / sizeof attributes[0] - (xdmf->mesh.erodes ? 0 : 1);
+    for (size_t i = 0; i < count; i++) {
         const AttributeLayout *layout = &attributes[i];
         int64_t rows = layout->per_cell ? cells : points;
         add_text(&text, "        <Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">", layout->name,

@@ -3,6 +3,7 @@
 #ifndef BILLOW_XDMF_H
 #define BILLOW_XDMF_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "solver/diagnostics.h"
@@ -13,6 +14,7 @@ typedef struct Xdmf Xdmf;
 typedef struct XdmfMesh {
     int64_t point_count, cell_count;
     int64_t topology_length; /* numbers in the connectivity array */
+    bool erodes;             /* a field eroded is there */
     int corner_count;        /* 3: triangles only, 4: quads only, 0: mixed, with the cells' types in the array */
 } XdmfMesh;
 

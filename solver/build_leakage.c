@@ -160,13 +160,14 @@ static void warn_unused(Builder *b, const AirbagDefinition *d, const Airbag *bag
 int airbag_leakage(Builder *b, const AirbagDefinition *d, Airbag *bag)
 {
     int status = 0;
-    bag->surface_parts = bag->part_count;
+    bag->surface_parts = bag->gas.surface_parts = bag->part_count;
     if (d->model != AIRBAG_WANG_NEFSKE && d->model != AIRBAG_HYBRID) return 0;
     if (d->opt > 0.0)
         status = build_leaks(b, d, bag);
     else
         warn_unused(b, d, bag);
     if (d->a23 < 0.0 && build_holes(b, d, bag)) status = -1;
+    bag->gas.vents_eroded = d->model == AIRBAG_HYBRID && (d->vntopt == 2 || d->vntopt == 10);
     for (int i = 0; i < bag->gas.leak_count; i++)
         if (bag->gas.leaks[i].option % 2 == 0) b->model->blockage = true;
     for (int i = 0; i < bag->gas.hole_count; i++)

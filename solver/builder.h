@@ -20,11 +20,12 @@ typedef struct PartRecord {
     ElementKind quad; /* kind of its quads */
     FabricLaw fabric;
     FibreAxis axis;
-    double angle;                 /* BETA of the material and the section [rad] */
-    double density, area_density; /* area_density: MAREA */
-    bool has_reference;           /* its elements may have a reference geometry */
-    double reference_birth;       /* RGBRTH, 0: the birth of the reference geometry's card */
-    ReferenceRule reference_rule; /* LNRC, TSRFAC */
+    double angle;                   /* BETA of the material and the section [rad] */
+    double density, area_density;   /* area_density: MAREA */
+    bool has_reference;             /* its elements may have a reference geometry */
+    double reference_birth;         /* RGBRTH, 0: the birth of the reference geometry's card */
+    ReferenceRule reference_rule;   /* LNRC, TSRFAC */
+    const ErosionCriteria *erosion; /* NULL: its shells do not erode */
 } PartRecord;
 
 /* Reference geometry of one shell. */
@@ -136,6 +137,9 @@ int build_seam_nodes(Builder *builder); /* in the model's order; after the motio
 void mark_seam_nodes(const Builder *builder, unsigned char *special); /* by build_renumber */
 int build_contacts(Builder *builder);         /* who meets whom, in deck order; after build_shells */
 int build_contact_surfaces(Builder *builder); /* triangles, edges, neighbours; after build_renumber */
+int build_erosion_parts(Builder *builder);    /* criteria of the parts; after build_parts and build_output */
+int build_erosion(
+    Builder *builder); /* criteria of the groups, facets of the bags; after build_groups and build_areas */
 void mark_bound_nodes(const Model *model, unsigned char *bound);     /* held, driven, hanging, rigid or fixed nodes */
 int build_ties(Builder *builder);                                    /* tied nodes; after build_seams */
 int build_tie_nodes(Builder *builder);                               /* after build_seam_nodes */

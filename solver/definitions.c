@@ -59,7 +59,8 @@ void definitions_free(Definitions *d)
                      d->reference_shells.items,
                      d->spotwelds.items,
                      d->contacts.items,
-                     d->tied_nodes.items};
+                     d->tied_nodes.items,
+                     d->erosions.items};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) memory_free(lists[i]);
     memset(d, 0, sizeof *d);
 }

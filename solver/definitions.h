@@ -46,6 +46,7 @@ typedef struct Definitions {
     LIST(AdaptivityDefinition) adaptivities;
     LIST(SpotweldDefinition) spotwelds;
     LIST(TiedNodesDefinition) tied_nodes;
+    LIST(ErosionDefinition) erosions;
     ControlDefinitions control;
     LIST(DatabaseDefinition) databases;
     LIST(HistoryDefinition) histories;

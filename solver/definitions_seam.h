@@ -16,4 +16,12 @@ typedef struct TiedNodesDefinition { /* *CONSTRAINED_TIED_NODES_FAILURE */
     Source source;
 } TiedNodesDefinition;
 
+typedef struct ErosionDefinition { /* *MAT_ADD_EROSION */
+    int mid, idam, lcregd, lcfld, nsff, lceps12, lceps13, lcepsmx;
+    double excl, mxpres, mneps, effeps, voleps, numfip, ncs;
+    double mnpres, sigp1, sigvm, mxeps, epssh, sigth, impulse, failtm;
+    double epsthin, engcrt, radcrt, dteflt, volfrac, mxtmp, dtmin;
+    Source source;
+} ErosionDefinition;
+
 #endif

@@ -18,6 +18,7 @@
 #include "airbag/surface.h"
 #include "contact/contact.h"
 #include "contact/rigid_wall.h"
+#include "elements/erosion.h"
 #include "elements/law.h"
 #include "elements/link.h"
 #include "solver/billow.h"
@@ -71,6 +72,7 @@ typedef struct ElementGroup {
     const double *tension_geometry; /* with the initial tension in it (TSRFAC); NULL if it never comes back */
     const double *start_square;     /* smallest squared stretch of each element in the mesh (block_count x LANES) */
     ReferenceRule rule;
+    const ErosionCriteria *erosion; /* NULL: nothing erodes */
 } ElementGroup;
 
 enum {
@@ -123,8 +125,11 @@ typedef struct Airbag {
     int first_part;    /* place of part[0] in State.part_area */
     int *node;         /* nodes on its surface (node_count), ascending */
     int node_count;
-    int pop_part;    /* RBIDP: index of the part whose acceleration may open the exits, -1 none */
-    int facet_count; /* FLUID_AND_GAS only: its surface, wound outwards (facet_count x 4) */
+    int erodible_count;     /* facets of its surface that may erode */
+    int32_t *erodible_node; /* (erodible_count x 4), wound outwards */
+    int64_t *erodible_slot; /* their padded element indices (erodible_count) */
+    int pop_part;           /* RBIDP: index of the part whose acceleration may open the exits, -1 none */
+    int facet_count;        /* FLUID_AND_GAS only: its surface, wound outwards (facet_count x 4) */
     int32_t *facet;
     int function[BILLOW_BAG_FUNCTIONS]; /* indices of the functions that the gas uses (function_count) */
     int function_count;
@@ -163,6 +168,7 @@ typedef struct Model {
     double *element_thickness; /* (element_count) [L] */
     double *element_mass;      /* (element_count) [M] */
     bool has_reference;        /* some group has a reference geometry */
+    bool has_erosion;          /* some group has criteria: State.eroded is there */
     bool liner_waits;          /* of some group: State.reached is there */
 
     int solid_count;

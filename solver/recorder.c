@@ -126,11 +126,26 @@ static void watch_seams(Recorder *recorder, const Model *model, const State *sta
     recorder->seams_watched = true;
 }
 
+/* A line when elements have eroded, and whenever there are twice as many. */
+static void watch_erosion(Recorder *recorder, const Model *model, const State *state)
+{
+    const int64_t count = *state->eroded_count;
+    if (recorder->next_eroded == 0) /* what had eroded before a restart is no news */
+        recorder->next_eroded = count > 0 ? 2 * count : 1;
+    if (count < recorder->next_eroded) return;
+    recorder->next_eroded = 2 * count;
+    int e = 0;
+    while (e < model->element_count - 1 && !state->eroded[model->element_slot[e]]) e++;
+    log_write_event(recorder->log, state->clock, "%lld element%s eroded so far, the first in the deck's order is %d",
+                    (long long)count, count == 1 ? " has" : "s have", model->element_id[e]);
+}
+
 static bool recorder_due(void *user, const Model *model, const State *state, bool last)
 {
     Recorder *recorder = user;
     const double wall = progress_now();
     if (model->seam_count + model->ties.count > 0) watch_seams(recorder, model, state);
+    if (model->has_erosion) watch_erosion(recorder, model, state);
     recorder->asked = true;
     recorder->due = schedule_due(&recorder->plan, state->clock);
     recorder->want_checkpoint = recorder->want_checkpoint || schedule_checkpoint_due(&recorder->plan, state->clock);

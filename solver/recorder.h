@@ -31,6 +31,7 @@ typedef struct Recorder {
     bool energy_warned, fabric_warned, fast_warned, lost_warned;
     int energy_off; /* cycles in a row with the balance beyond the warning's limit */
     bool seams_watched;
+    int64_t next_eroded;      /* so many eroded elements are worth a line in the log; 0: at the start */
     double seams_from;        /* time of the last cycle if seams_watched: those that tore since are logged */
     double next_look;         /* wall time of the next look at d3kil */
     double last_time;         /* of the last cycle that was emitted; a run's last cycle always is */

@@ -7,7 +7,7 @@
 
 typedef struct ReferenceWork {
     ElementGroup *groups; /* (group_count); the model's own where no group has a reference geometry */
-    double **own;         /* constants of groups whose elements change one by one (group_count), NULL elsewhere */
+    double **own; /* constants of groups whose elements change or erode one by one (group_count), NULL elsewhere */
 } ReferenceWork;
 
 /* By the state's references. 0, or -1 without memory. */
@@ -17,7 +17,8 @@ void reference_work_free(const Model *model, ReferenceWork *work);
 /* Points a group to the constants that hold by the state. */
 void reference_work_select(const Model *model, const State *state, int number, ReferenceWork *work);
 
-/* Constants of a group's blocks [first, end) in a reference's state into own (geometry_size x LANES per block). */
+/* Constants of a group's blocks [first, end) in a reference's state (NULL: the mesh is its reference), eroded elements
+ * taken out, into own (geometry_size x LANES per block). */
 void reference_work_fill(const Model *model, const State *state, int number, const ReferenceState *now, int first,
                          int end, double *own);
 

@@ -52,6 +52,10 @@ static size_t lay_out(const Model *model, State *state)
     state->link_energy = take(base, &used, (size_t)model->link_count * sizeof *state->link_energy);
     state->seam_torn = take(base, &used, (size_t)model->seam_count * sizeof *state->seam_torn);
     state->tie_broken = take(base, &used, (size_t)model->ties.count * sizeof *state->tie_broken);
+    const bool erodes = model->has_erosion;
+    state->eroded = take(base, &used, erodes ? (size_t)model->padded_count : 0);
+    state->eroded_count = take(base, &used, erodes ? sizeof *state->eroded_count : 0);
+    state->part_eroded = take(base, &used, erodes ? (size_t)model->bag_part_count * sizeof *state->part_eroded : 0);
     state->wall = take(base, &used, (size_t)model->wall_count * sizeof *state->wall);
     state->wall_side = take(base, &used, (size_t)model->wall_count * (size_t)model->moving_count);
     state->sensor = take(base, &used, (size_t)model->sensor_count * sizeof *state->sensor);

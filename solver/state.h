@@ -92,6 +92,10 @@ typedef struct State {
     ContactMemory *contact_memory; /* pairs in contact, as of the last cycle written (Model.contact_memory_size) */
     int32_t *contact_memories;     /* how many of each interface (contact_count) */
     double *tie_broken;            /* likewise of each tie (ties.count); written by step_ties_act */
+    unsigned char *eroded; /* 1: the element is taken out (padded_count if Model.has_erosion, else none, likewise
+                              the next two); written by step_erosion_chunk, step_erosion_close */
+    int64_t *eroded_count; /* how many (1) */
+    double *part_eroded;   /* area of the bags' parts that has eroded, as it was then (bag_part_count) [L2] */
 } State;
 
 /* Bytes that a State of this model needs. */

@@ -10,6 +10,7 @@
 
 #include "elements/membrane.h"
 #include "solver/memory.h"
+#include "solver/step_erosion.h"
 #include "solver/step_ties.h"
 #include "solver/team.h"
 #include "solver/workspace.h"
@@ -55,6 +56,7 @@ static void run_chunk(Workspace *w, int number, int chunk)
     kernels_for(w->kernels, group)(&input, &w->chunks[chunk]);
     if (group->has_reference) step_reference_chunk(w, number, chunk, &input, &w->chunks[chunk]);
     if (m->ties.count > 0) step_ties_watch(w, number, chunk);
+    if (m->has_erosion) step_erosion_chunk(w, number, chunk);
 }
 
 int step_group_of_chunk(const Model *m, int chunk)
@@ -135,7 +137,9 @@ static int allocate(Workspace *w)
                       w->tie_strain,    w->tie_volume};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
-    return step_share_allocate(w) || step_functions_allocate(w) || step_jets_allocate(w) ? -1 : 0;
+    return step_share_allocate(w) || step_functions_allocate(w) || step_jets_allocate(w) || step_erosion_allocate(w)
+               ? -1
+               : 0;
 }
 
 static void release(Workspace *w)
@@ -154,6 +158,7 @@ static void release(Workspace *w)
     memory_free(w->segment_middle);
     step_functions_release(w);
     step_jets_release(w);
+    step_erosion_release(w);
     contact_free(w->contact);
 }
 

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "airbag/gas_pop.h"
+#include "solver/step_erosion.h"
 #include "solver/vector3.h"
 #include "solver/workspace.h"
 
@@ -10,7 +11,7 @@ static void measure_bags(Workspace *w)
 {
     const Model *m = w->model;
     for (int i = 0; i < m->airbag_count; i++) {
-        double cap = surface_cap_volume(&m->airbags[i].closure, w->state->x, m->origin);
+        double cap = surface_cap_volume(&m->airbags[i].closure, w->state->x, m->origin) + step_erosion_cover(w, i);
         w->bag_volume[i] = cap;
         w->bag_area[i] = 0.0;
         w->state->gas[i].cap_work += w->state->gas[i].applied * (cap - w->state->cap_volume[i]);
@@ -122,7 +123,8 @@ static int advance_bag(Workspace *w, int i, double time, double dt)
         .volume = w->bag_volume[i],
         .area = w->bag_area[i],
         .fluid_volume = w->model->has_fluid ? w->fluid_volume[i] : 0.0,
-        .areas = {w->state->part_area + bag->first_part, w->state->part_blocked + bag->first_part},
+        .areas = {w->state->part_area + bag->first_part, w->state->part_blocked + bag->first_part,
+                  w->model->has_erosion ? w->state->part_eroded + bag->first_part : NULL},
     };
     const char *why = "";
     if (bag->function_count > 0) step_functions_select(w, i);

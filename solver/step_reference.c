@@ -100,7 +100,9 @@ static void wake_liners(Workspace *w, int number, const KernelInput *input, Chun
          place < (int64_t)input->end_block * BILLOW_LANES && place < group->element_count; place++) {
         unsigned char *reached = &w->state->reached[group->first_element + place];
         double *lane = own + lane_offset(group, place);
-        if (*reached || !reference_is_taut(group, lane, w->state->x, place)) continue;
+        if (*reached || (group->erosion && w->state->eroded[group->first_element + place]) ||
+            !reference_is_taut(group, lane, w->state->x, place))
+            continue;
         *reached = 1;
         reference_constants(&w->model->groups[number], now->applied, true, place, lane);
         double energy = reference_energy(group, lane, w->state->x, place);

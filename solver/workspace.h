@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "airbag/hole_cover.h"
 #include "airbag/ray_tree.h"
 #include "contact/contact_loop.h"
 #include "elements/kernels.h"
@@ -77,6 +78,13 @@ typedef struct JetWork {
     int first_chunk;
 } JetWork;
 
+/* What is taken out of one chunk of elements in a cycle. */
+typedef struct ErosionSums {
+    double stored, hourglass; /* energy */
+    double work;              /* of what was taken out in the cycle before, in the step after */
+    int count;
+} ErosionSums;
+
 /* Everything that one cycle decides once for all threads. */
 typedef struct CyclePlan {
     double time, dt_before, dt_mean, dt_next;
@@ -127,6 +135,8 @@ typedef struct Workspace {
                      * walls with mass keep those of free nodes too */
     double *acceleration, *velocity; /* full-step view, (node_count x 3); NULL until the first emit */
     double *part_kinetic, *part_momentum;
+    HoleCover *covers;                  /* over the holes of each bag (airbag_count); NULL without erosion */
+    ErosionSums *erosion_sums;          /* (chunk_count), likewise */
     double *tie_strain, *tie_volume;    /* of the elements that ties watch, of this cycle (ties.slot_count) */
     double *segment_middle;             /* cost of the segments before, and half its own; -1: idle (segment_count) */
     double segment_cost;                /* of all */

@@ -158,7 +158,7 @@ static void flows_by_part(void **state)
     const Airbag *bag = &run.model.airbags[0];
     const GasState *gas = &run.state.gas[0];
     double flow[8], weight[8], sum = 0;
-    GasAreas areas = {run.state.part_area, run.state.part_blocked};
+    GasAreas areas = {run.state.part_area, run.state.part_blocked, NULL};
     gas_part_flows(&bag->gas, run.model.curves, &areas, gas, run.state.clock->time, bag->part_count, weight, flow);
     for (int i = 0; i < bag->part_count; i++) {
         int id = run.model.parts[bag->part[i]].id;

@@ -114,6 +114,13 @@ static void make_mooney_quads(Scene *scene)
     make_bag(scene, SCENE_QUADS, 27);
 }
 
+/* The same of a fabric that tears. */
+static void make_torn_bag(Scene *scene)
+{
+    scene_print(&scene->deck, "*MAT_ADD_EROSION\n1,0,0,-.02\n0,0,0,2e-4\n");
+    make_bag(scene, SCENE_DIAGONAL, 0);
+}
+
 /* An elastic tube between a fixed and a falling rigid disc. */
 static void make_bounce(Scene *scene)
 {
@@ -192,6 +199,7 @@ static const struct DeterminismCase {
              {"rigid bodies", make_bounce, false},
              {"walls and cables", make_walls, false},
              {"contact", scene_crumple, false},
+             {"torn bag", make_torn_bag, false},
              {"driver bag", NULL, false}};
 enum { CASE_COUNT = sizeof cases / sizeof cases[0] };
 

@@ -32,8 +32,11 @@ static void run_leak(LeakCase *l, double end, double dt)
     for (int i = 0; i < count; i++) {
         const char *why = NULL;
         double next = begin + (end - begin) * (i + 1) / count;
-        GasStep step = {
-            .time = l->c.time, .dt = next - l->c.time, .volume = 0.06, .area = 0.8, .areas = {&l->area, &l->blocked}};
+        GasStep step = {.time = l->c.time,
+                        .dt = next - l->c.time,
+                        .volume = 0.06,
+                        .area = 0.8,
+                        .areas = {&l->area, &l->blocked, NULL}};
         assert_int_equal(gas_advance(&l->c.gas, l->c.curves, 1.0, 1.0, 0.0, &step, &l->c.state, &why), 0);
         l->c.time = next;
     }
@@ -76,7 +79,7 @@ static void test_laws(void **unused)
 
 static double area_of(const LeakCase *l, double time, double pressure)
 {
-    return gas_leak_area(&l->leak, l->c.curves, &(GasAreas){&l->area, &l->blocked}, time, pressure, 1e5);
+    return gas_leak_area(&l->leak, l->c.curves, &(GasAreas){&l->area, &l->blocked, NULL}, time, pressure, 1e5);
 }
 
 /* The forms of the effective area. */
@@ -125,7 +128,7 @@ static void test_blockage(void **unused)
     LeakCase l;
     start_leak(&l, 1);
     l.blocked = 0.25;
-    GasAreas areas = {&l.area, &l.blocked};
+    GasAreas areas = {&l.area, &l.blocked, NULL};
     l.hole = (GasHole){.initial_area = 0.4};
     assert_relative(gas_hole_area(&l.hole, &areas), 1.0, 1e-15);
     l.hole.blocked = true;
