@@ -23,7 +23,8 @@ static int list_create(ContactList *list, int owners)
     list->sums = memory_alloc((size_t)list->chunk_count + 1, sizeof *list->sums);
     list->passages = memory_alloc((size_t)list->chunk_count + 1, sizeof *list->passages);
     list->memory = memory_alloc((size_t)owners * CONTACT_SLOTS + 1, sizeof *list->memory);
-    return list->sums && list->passages && list->memory ? 0 : -1;
+    list->depth = memory_alloc((size_t)owners + 1, sizeof *list->depth);
+    return list->sums && list->passages && list->memory && list->depth ? 0 : -1;
 }
 
 static void pairs_free(ContactPairs *pairs)
@@ -39,6 +40,7 @@ static void list_free(ContactList *list)
     pairs_free(&list->pairs);
     pairs_free(&list->before);
     memory_free(list->memory);
+    memory_free(list->depth);
     memory_free(list->forces);
     memory_free(list->sums);
     memory_free(list->passages);
@@ -50,14 +52,21 @@ void contact_free(ContactLoop *loop)
     for (int i = 0; loop->runs && i < loop->model->contact_count; i++) {
         list_free(&loop->runs[i].faces);
         list_free(&loop->runs[i].edges);
+        contact_groups_free(&loop->runs[i].nodes);
+        contact_groups_free(&loop->runs[i].triangles);
+        contact_groups_free(&loop->runs[i].lines);
         memory_free(loop->runs[i].plane);
         memory_free(loop->runs[i].used);
         memory_free(loop->runs[i].calm);
     }
-    contact_grid_free(loop->grid);
-    memory_free(loop->grid);
+    contact_grid_free(&loop->grid);
     memory_free(loop->box);
-    memory_free(loop->height);
+    for (int k = 0; loop->parts && k < BILLOW_MAX_THREADS; k++) {
+        memory_free(loop->parts[k].other);
+        memory_free(loop->parts[k].height);
+        memory_free(loop->parts[k].found.item);
+    }
+    memory_free(loop->parts);
     memory_free(loop->room);
     memory_free(loop->around);
     memory_free(loop->runs);
@@ -66,14 +75,26 @@ void contact_free(ContactLoop *loop)
     memory_free(loop);
 }
 
-static double largest_speed(const Model *m, const double *v)
+static void move_groups(const ContactLoop *loop, ContactRun *run, double time)
 {
-    double largest = 0.0;
+    contact_groups_move(&run->nodes, loop->motions, time);
+    contact_groups_move(&run->triangles, loop->motions, time);
+    contact_groups_move(&run->lines, loop->motions, time);
+}
+
+/* Largest speeds of the chunks of nodes at the start. */
+static void fill_speeds(ContactLoop *loop)
+{
+    const Model *m = loop->model;
+    double fastest = 0.0;
     for (int n = 0; n < m->moving_count; n++) {
-        double square = vector3_dot(v + 3 * (ptrdiff_t)n, v + 3 * (ptrdiff_t)n);
-        largest = square > largest ? square : largest;
+        const double *v = loop->state->v + 3 * (ptrdiff_t)n;
+        ContactMotion *motion = &loop->motions[n / CONTACT_NODE_CHUNK];
+        motion->fastest = fmax(motion->fastest, vector3_dot(v, v));
+        fastest = fmax(fastest, motion->fastest);
     }
-    return sqrt(largest);
+    loop->fastest = sqrt(fastest);
+    for (int i = 0; i < m->contact_count; i++) move_groups(loop, &loop->runs[i], 0.0);
 }
 
 /* Has a node moved by half the skin since the last search? */
@@ -129,16 +150,35 @@ static double room_for_sliding(const Model *m)
     return rubs ? 0.5 * room_left(m) : 0.0;
 }
 
-static void search(ContactLoop *loop)
+static void search(ContactLoop *loop, int thread, Team *team)
 {
     double since = clock_seconds();
-    contact_fill_room(loop, loop->state->contact_searched, stiffest_elements(loop->model),
-                      0.5 * room_left(loop->model));
-    for (int i = 0; i < loop->model->contact_count; i++)
-        if (contact_find_pairs(loop, &loop->runs[i], loop->state->contact_searched)) loop->out_of_memory = true;
+    if (thread == 0)
+        contact_fill_room(loop, loop->state->contact_searched, stiffest_elements(loop->model),
+                          0.5 * room_left(loop->model));
+    contact_find_pairs(loop, thread, team);
+    if (thread != 0) return;
     loop->searches++;
-    loop->search_due = false;
     loop->search_seconds += clock_seconds() - since;
+}
+
+static int run_create(ContactLoop *loop, int i)
+{
+    ContactRun *run = &loop->runs[i];
+    const ContactInterface *c = &loop->model->contacts[i];
+    size_t triangles = (size_t)c->triangle_count + 1;
+    run->contact = c;
+    run->force = loop->resultant + 3 * (ptrdiff_t)i;
+    run->plane = memory_alloc(4 * triangles, sizeof(double));
+    run->used = memory_alloc(triangles, 1);
+    run->calm = memory_alloc(triangles, 1);
+    if (!run->plane || !run->used || !run->calm) return -1;
+    return list_create(&run->faces, c->node_count) || list_create(&run->edges, c->edge_count) ||
+                   contact_groups_create(&run->nodes, loop->model, c->node_count, 1, c->node) ||
+                   contact_groups_create(&run->triangles, loop->model, c->triangle_count, 3, c->triangle) ||
+                   contact_groups_create(&run->lines, loop->model, c->edge_count, 2, c->edge)
+               ? -1
+               : 0;
 }
 
 ContactLoop *contact_create(const Model *model, State *state, double *rows, const double *pressure)
@@ -151,29 +191,19 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     loop->pressure = pressure;
     loop->corner = rows + CONTACT_ROW * (ptrdiff_t)model->contact_row;
     loop->runs = memory_alloc((size_t)model->contact_count, sizeof *loop->runs);
-    loop->grid = memory_alloc(1, sizeof *loop->grid);
+    loop->parts = memory_alloc(BILLOW_MAX_THREADS, sizeof *loop->parts);
     loop->motion_count = (model->moving_count + CONTACT_NODE_CHUNK - 1) / CONTACT_NODE_CHUNK;
     loop->motions = memory_alloc((size_t)loop->motion_count + 1, sizeof *loop->motions);
     loop->room = memory_alloc(6 * (size_t)model->node_count, sizeof(double));
     loop->around = memory_alloc((size_t)model->node_count, sizeof(double));
     loop->resultant = memory_alloc(3 * (size_t)model->contact_count, sizeof(double));
-    int status = loop->runs && loop->grid && loop->motions && loop->resultant && loop->room && loop->around ? 0 : -1;
-    for (int i = 0; !status && i < model->contact_count; i++) {
-        loop->runs[i].contact = &model->contacts[i];
-        loop->runs[i].force = loop->resultant + 3 * (ptrdiff_t)i;
-        size_t triangles = (size_t)model->contacts[i].triangle_count + 1;
-        loop->runs[i].plane = memory_alloc(4 * triangles, sizeof(double));
-        loop->runs[i].used = memory_alloc(triangles, 1);
-        loop->runs[i].calm = memory_alloc(triangles, 1);
-        status = list_create(&loop->runs[i].faces, model->contacts[i].node_count) |
-                 list_create(&loop->runs[i].edges, model->contacts[i].edge_count);
-        if (!loop->runs[i].plane || !loop->runs[i].used || !loop->runs[i].calm) status = -1;
-    }
+    int status = loop->runs && loop->parts && loop->motions && loop->resultant && loop->room && loop->around ? 0 : -1;
+    for (int i = 0; !status && i < model->contact_count; i++) status = run_create(loop, i);
     if (!status && state->contact->started) {
         loop->restored = true;
-        search(loop);
+        search(loop, 0, NULL);
         loop->restored = false;
-        restore_memories(loop);
+        if (!loop->out_of_memory) restore_memories(loop);
         loop->search_due = has_moved(model, state);
         for (int n = 0; n < model->node_count; n++)
             loop->corner[CONTACT_ROW * (ptrdiff_t)n + 3] = state->contact_load[n];
@@ -184,7 +214,7 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
         contact_free(loop);
         return NULL;
     }
-    loop->fastest = largest_speed(model, state->v);
+    fill_speeds(loop);
     return loop;
 }
 
@@ -217,17 +247,22 @@ static void set_thinness(ContactLoop *loop)
     }
 }
 
-void contact_prepare(ContactLoop *loop, double time, double before, double next)
+void contact_prepare(ContactLoop *loop, double time, double before, double next, int thread, Team *team)
 {
     double longer = before > next ? before : next;
-    loop->step = (ContactStep){.time = time, .before = before, .next = next, .longer = longer};
-    loop->step.near = 2.0 * loop->fastest * longer;
-    loop->step.ahead = loop->motion + 0.5 * loop->step.near + 2.0 * loop->fastest * longer;
-    set_thinness(loop);
-    if (!loop->search_due) return;
-    loop->state->contact->skin = choose_skin(loop);
-    memcpy(loop->state->contact_searched, loop->state->x, 3 * (size_t)loop->model->node_count * sizeof(double));
-    search(loop);
+    bool due = loop->search_due;
+    if (thread == 0) {
+        loop->step = (ContactStep){.time = time, .before = before, .next = next, .longer = longer};
+        set_thinness(loop);
+        if (due) {
+            loop->state->contact->skin = choose_skin(loop);
+            memcpy(loop->state->contact_searched, loop->state->x, 3 * (size_t)loop->model->node_count * sizeof(double));
+        }
+    }
+    if (!due) return;
+    search(loop, thread, team);
+    if (thread != 0) return;
+    loop->search_due = false;
     loop->state->contact->started = 1;
 }
 
@@ -266,6 +301,7 @@ static void sleep_list(ContactList *list)
 {
     if (list->pairs.count) memset(list->pairs.slot, 0, list->pairs.count);
     memset(list->memory, 0, (size_t)list->owner_count * CONTACT_SLOTS * sizeof *list->memory);
+    memset(list->depth, 0, (size_t)list->owner_count * sizeof *list->depth);
     for (int c = 0; c < list->chunk_count; c++) list->sums[c] = (ContactSums){0};
 }
 
@@ -403,7 +439,7 @@ void contact_sum(ContactLoop *loop)
         moved = m->moved > moved ? m->moved : moved;
     }
     loop->fastest = sqrt(fastest);
-    loop->motion += loop->fastest * loop->step.next;
+    for (int i = 0; i < loop->model->contact_count; i++) move_groups(loop, &loop->runs[i], loop->step.next);
     loop->search_due = loop->search_due || moved > half * half;
 }
 

@@ -19,6 +19,7 @@ typedef struct Inspection {
     ContactNear *near;
     void *user;
     ContactGrid grid;
+    ContactFound found;
     ContactBox *box; /* of the triangles, grown by their radii */
 } Inspection;
 
@@ -42,9 +43,10 @@ static int inspect_node(Inspection *in, int i)
     ClosestPoint best = {0};
     double least = 1.0, thickness = 0.0;
     contact_box_start(&point, at);
-    int found = contact_grid_query(&in->grid, &point);
+    int found = contact_grid_query(&in->grid, &point, &in->found);
+    contact_sort(in->found.item, found);
     for (int k = 0; k < found; k++) {
-        int t = in->grid.found[k];
+        int t = in->found.item[k];
         ClosestPoint p;
         double g = c->node_radius[i] + c->triangle_radius[t], bound;
         memcpy(p.corner, c->triangle + 3 * (ptrdiff_t)t, sizeof p.corner);
@@ -105,9 +107,10 @@ static int inspect_edge(Inspection *in, int t, int k)
     ContactBox box;
     contact_box_start(&box, p);
     contact_box_add(&box, q);
-    int found = contact_grid_query(&in->grid, &box);
+    int found = contact_grid_query(&in->grid, &box, &in->found);
+    contact_sort(in->found.item, found);
     for (int j = 0; j < found; j++) {
-        int u = in->grid.found[j];
+        int u = in->found.item[j];
         const int32_t *corner = c->triangle + 3 * (ptrdiff_t)u;
         double place[3];
         bool own = false;
@@ -131,7 +134,7 @@ int contact_inspect(const Model *model, const ContactInterface *c, const double 
     in.box = memory_alloc((size_t)c->triangle_count + 1, sizeof *in.box);
     if (!in.box) return -1;
     fill_boxes(&in);
-    int status = contact_grid_fill(&in.grid, in.box, c->triangle_count, c->longest_side + c->thickest);
+    int status = contact_grid_fill(&in.grid, in.box, c->triangle_count);
     for (int i = 0; i < c->node_count && !status; i++) status = inspect_node(&in, i);
     for (int t = 0; t < c->triangle_count && !status; t++)
         for (int k = 0; k < 3 && !status; k++) {
@@ -139,6 +142,7 @@ int contact_inspect(const Model *model, const ContactInterface *c, const double 
             if (other < 0 || other > t) status = inspect_edge(&in, t, k);
         }
     contact_grid_free(&in.grid);
+    memory_free(in.found.item);
     memory_free(in.box);
     return status;
 }

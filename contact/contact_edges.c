@@ -27,8 +27,13 @@ static inline bool cross_edges(Crossing *c, const double *const p[4], double rea
     }
     vector3_cross(u, w, n);
     double uu = vector3_dot(u, u), ww = vector3_dot(w, w), square = vector3_dot(n, n), height = vector3_dot(n, r);
-    *bound = -INFINITY;
-    if (!(square > PARALLEL * uu * ww)) return false;
+    if (!(square > PARALLEL * uu * ww)) {
+        /* from the first's start to the second's line, less what the first may come nearer by */
+        double along = ww > 0.0 ? vector3_dot(w, r) / ww : 0.0, away = 0.0;
+        for (int k = 0; k < 3; k++) away += (r[k] - along * w[k]) * (r[k] - along * w[k]);
+        *bound = sqrt(away) - sqrt(PARALLEL * uu);
+        return false;
+    }
     *bound = fabs(height) / sqrt(square);
     if (*bound > reach) return false;
     double uw = vector3_dot(u, w), ur = vector3_dot(u, r), wr = vector3_dot(w, r), inverse = 1.0 / square;
@@ -66,6 +71,17 @@ static inline void edge_ends(const ContactInterface *c, const double *x, int e, 
     }
 }
 
+/* How far both edges together have gone, and may go in this step. */
+static double edge_way(const ContactRun *run, int e, int f)
+{
+    return run->lines.way[e / CONTACT_GROUP] + run->lines.way[f / CONTACT_GROUP];
+}
+
+static double edge_step(const ContactLoop *loop, const ContactRun *run, int e, int f)
+{
+    return (run->lines.speed[e / CONTACT_GROUP] + run->lines.speed[f / CONTACT_GROUP]) * loop->step.longer;
+}
+
 static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int e, int32_t pair, ContactSums *sums,
                       ContactForce *forces, ContactPassages *passages)
 {
@@ -77,13 +93,13 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     const int32_t *a = c->edge + 2 * (ptrdiff_t)e, *b = c->edge + 2 * (ptrdiff_t)f;
     const double *p[4];
     double thickness = run->thinness * (c->edge_radius[e] + c->edge_radius[f]), bound;
-    double reach = thickness + loop->step.near + (m->side ? law->deepest : 0.0);
+    double reach = thickness + edge_step(loop, run, e, f) + (m->side ? law->deepest : 0.0);
     Crossing cross;
     edge_ends(c, loop->state->x, e, f, p);
     if (!cross_edges(&cross, p, reach, m->side ? SLACK : 0.0, &bound)) {
         if (m->side) note_ended(passages, e, f, m);
         contact_forget(&run->edges, e, pair);
-        pairs->wake[pair] = loop->motion + 0.5 * (bound - thickness);
+        pairs->wake[pair] = edge_way(run, e, f) + bound - thickness;
         return;
     }
     ContactTouch t = {.node = {a[0], a[1], b[0], b[1]},
@@ -181,7 +197,9 @@ void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     *sums = (ContactSums){0};
     passages->count = 0;
     for (int e = first; e < end; e++)
-        for (int32_t pair = list->pairs.start[e]; pair < list->pairs.start[e + 1]; pair++)
-            if (!(list->pairs.wake[pair] > loop->step.ahead))
-                meet_pair(loop, run, law, e, pair, sums, list->forces + list->pairs.start[first], passages);
+        for (int32_t pair = list->pairs.start[e]; pair < list->pairs.start[e + 1]; pair++) {
+            int f = list->pairs.other[pair];
+            if (list->pairs.wake[pair] > edge_way(run, e, f) + edge_step(loop, run, e, f)) continue;
+            meet_pair(loop, run, law, e, pair, sums, list->forces + list->pairs.start[first], passages);
+        }
 }

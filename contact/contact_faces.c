@@ -131,71 +131,96 @@ static bool take_side(const ContactLaw *law, const ContactInterface *c, const do
     return true;
 }
 
-/* One node: all its candidates that are awake. */
-static void meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, ContactSums *sums,
-                      ContactForce *forces)
+/* The candidates of one node that may touch in this step; the others sleep until they may. */
+static int look_around(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, NearFace *near)
 {
     const ContactInterface *c = run->contact;
     const ContactPairs *pairs = &run->faces.pairs;
     const double *x = loop->state->x, *at = x + 3 * (ptrdiff_t)c->node[i];
-    const double *v = law->v + 3 * (ptrdiff_t)c->node[i];
-    /* no pair closes faster than this node and the fastest one together */
-    double near_step = (vector3_norm(v) + loop->fastest) * loop->step.longer;
-    NearFace near[MOST_NEAR];
+    double own_way = run->nodes.way[i / CONTACT_GROUP], own_speed = run->nodes.speed[i / CONTACT_GROUP];
+    double deep = run->faces.depth[i]; /* behind a surface: the next triangle may be as far away */
     int count = 0;
     for (int32_t p = pairs->start[i]; p < pairs->start[i + 1]; p++) {
-        if (pairs->wake[p] > loop->step.ahead) continue;
+        int32_t t = pairs->other[p];
+        double way = own_way + run->triangles.way[t / CONTACT_GROUP];
+        double step = (own_speed + run->triangles.speed[t / CONTACT_GROUP]) * loop->step.longer + deep;
+        if (pairs->wake[p] > way + step) continue;
         NearFace *f = &near[count];
-        double thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[pairs->other[p]]), bound;
-        double reach = thickness + near_step;
-        const double *plane = run->plane + 4 * (ptrdiff_t)pairs->other[p];
-        double height = plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] - plane[3];
+        double thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[t]), reach = thickness + step, bound;
+        const double *plane = run->plane + 4 * (ptrdiff_t)t;
+        double height = fabs(plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] - plane[3]);
         if (pairs->slot[p]) {
             reach += law->deepest;
-        } else if (fabs(height) > reach) {
-            pairs->wake[p] = loop->motion + 0.5 * (fabs(height) - thickness);
+        } else if (height > reach) {
+            pairs->wake[p] = way + height - thickness;
             continue;
         }
         f->pair = p;
-        f->triangle = pairs->other[p];
-        memcpy(f->at.corner, c->triangle + 3 * (ptrdiff_t)f->triangle, sizeof f->at.corner);
+        f->triangle = t;
+        memcpy(f->at.corner, c->triangle + 3 * (ptrdiff_t)t, sizeof f->at.corner);
         if (closest_point(&f->at, at, x, reach, &bound) && count < MOST_NEAR - 1) {
+            pairs->wake[p] = 0.0;
             count++;
             continue;
         }
         contact_forget(&run->faces, i, p);
-        pairs->wake[p] = loop->motion + 0.5 * (bound - thickness);
+        pairs->wake[p] = way + bound - thickness;
     }
+    return count;
+}
+
+/* Too far for its own velocity: a new pair that cannot touch in this step. */
+static bool cannot_touch(const ContactLaw *law, const ContactTouch *t, const NearFace *f)
+{
+    double longer = law->before > law->next ? law->before : law->next;
+    double beyond = f->at.distance - t->thickness;
+    return beyond > 0.0 && beyond * beyond > longer * longer * vector3_dot(t->speed, t->speed) * (1.0 + 1e-9);
+}
+
+/* One near triangle: the node's pair with it, pushed. */
+static void meet_face(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, NearFace *f, ContactSums *sums,
+                      ContactForce *forces)
+{
+    const ContactInterface *c = run->contact;
+    unsigned char *slot = &run->faces.pairs.slot[f->pair];
+    ContactMemory fresh = {0}, *m = contact_recall(&run->faces, i, f->pair);
+    const unsigned char *rim = c->corner_rim + 3 * (ptrdiff_t)f->triangle;
+    ContactTouch t = {.node = {c->node[i], f->at.corner[0], f->at.corner[1], f->at.corner[2]},
+                      .weight = {1.0, -f->at.weight[0], -f->at.weight[1], -f->at.weight[2]},
+                      .thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[f->triangle]),
+                      .stiffness = c->stiffness[c->node_side[i] == CONTACT_SIDE_B]};
+    if (f->kept) contact_speed(law, &t);
+    if (f->kept && !m && cannot_touch(law, &t, f)) return;
+    f->rim = f->at.feature != 7;
+    for (int a = 0; a < 3; a++) f->rim = f->rim && (!(f->at.feature & 1 << a) || rim[a]);
+    if (!f->kept || !take_side(law, c, loop->state->x, f, m ? m : &fresh, &t)) {
+        contact_forget(&run->faces, i, f->pair);
+        return;
+    }
+    ContactForce *out = &forces[sums->count];
+    int counts = contact_push(law, &t, m ? m : &fresh, out, sums);
+    if (m && m->side == 0) *slot = 0;
+    if (m && m->side != 0 && -m->gap > run->faces.depth[i]) run->faces.depth[i] = -m->gap;
+    if (!m && fresh.side != 0) contact_keep(&run->faces, i, f->pair, &fresh);
+    if (!counts) return;
+    sums->count++;
+    double sign = c->node_side[i] & CONTACT_SIDE_A ? 1.0 : -1.0;
+    for (int a = 0; a < 3; a++) sums->force[a] += sign * out->force[a];
+}
+
+/* One node: all its candidates that are awake. */
+static void meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, ContactSums *sums,
+                      ContactForce *forces)
+{
+    unsigned char *slot = run->faces.pairs.slot;
+    NearFace near[MOST_NEAR];
+    int count = look_around(loop, run, law, i, near);
+    run->faces.depth[i] = 0.0;
     if (count == 0) return;
     keep_nearest(near, count);
     for (int k = 0; k < count; k++)
-        if (near[k].kept && pairs->slot[near[k].pair] == 0) inherit(pairs->slot, near, count, k);
-    for (int k = 0; k < count; k++) {
-        NearFace *f = &near[k];
-        ContactMemory fresh = {0}, *m = contact_recall(&run->faces, i, f->pair);
-        if (!m) m = &fresh;
-        const unsigned char *rim = c->corner_rim + 3 * (ptrdiff_t)f->triangle;
-        ContactTouch t = {.node = {c->node[i], f->at.corner[0], f->at.corner[1], f->at.corner[2]},
-                          .weight = {1.0, -f->at.weight[0], -f->at.weight[1], -f->at.weight[2]},
-                          .thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[f->triangle]),
-                          .stiffness = c->stiffness[c->node_side[i] == CONTACT_SIDE_B]};
-        pairs->wake[f->pair] = 0.0;
-        f->rim = f->at.feature != 7;
-        for (int a = 0; a < 3; a++) f->rim = f->rim && (!(f->at.feature & 1 << a) || rim[a]);
-        if (f->kept) contact_speed(law, &t);
-        if (!f->kept || !take_side(law, c, x, f, m, &t)) {
-            contact_forget(&run->faces, i, f->pair);
-            continue;
-        }
-        ContactForce *out = &forces[sums->count];
-        int counts = contact_push(law, &t, m, out, sums);
-        if (m != &fresh && m->side == 0) pairs->slot[f->pair] = 0;
-        if (m == &fresh && m->side != 0) contact_keep(&run->faces, i, f->pair, m);
-        if (!counts) continue;
-        sums->count++;
-        double sign = c->node_side[i] & CONTACT_SIDE_A ? 1.0 : -1.0;
-        for (int a = 0; a < 3; a++) sums->force[a] += sign * out->force[a];
-    }
+        if (near[k].kept && slot[near[k].pair] == 0) inherit(slot, near, count, k);
+    for (int k = 0; k < count; k++) meet_face(loop, run, law, i, &near[k], sums, forces);
 }
 
 void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int chunk)

@@ -22,11 +22,33 @@ static int pairs_begin(ContactList *list)
                           sizeof *list->pairs.start);
 }
 
-static int pairs_add(ContactPairs *pairs, int32_t other)
+static int part_add(ContactPart *part, int32_t other)
 {
-    if (memory_reserve((void **)&pairs->other, &pairs->other_capacity, pairs->count + 1, sizeof *pairs->other))
-        return -1;
-    pairs->other[pairs->count++] = other;
+    if (memory_reserve((void **)&part->other, &part->other_capacity, part->count + 1, sizeof *part->other)) return -1;
+    part->other[part->count++] = other;
+    return 0;
+}
+
+/* First owner of a thread. */
+static int first_of(int count, int thread, int threads)
+{
+    return (int)((int64_t)count * thread / threads);
+}
+
+/* Puts what the threads found behind each other. */
+static int pairs_join(ContactLoop *loop, ContactList *list, int threads)
+{
+    ContactPairs *pairs = &list->pairs;
+    for (int k = 0; k < threads; k++) {
+        const ContactPart *part = &loop->parts[k];
+        if (part->failed || memory_reserve((void **)&pairs->other, &pairs->other_capacity, pairs->count + part->count,
+                                           sizeof *pairs->other))
+            return -1;
+        for (int i = first_of(list->owner_count, k, threads); i < first_of(list->owner_count, k + 1, threads); i++)
+            pairs->start[i] += (int32_t)pairs->count;
+        if (part->count > 0) memcpy(pairs->other + pairs->count, part->other, part->count * sizeof *part->other);
+        pairs->count += part->count;
+    }
     return 0;
 }
 
@@ -161,14 +183,15 @@ static void mark_deep(const ContactRun *run, unsigned char *deep)
 }
 
 /* Candidates of one node out of the triangles found near it. */
-static int choose_faces(ContactLoop *loop, ContactRun *run, const double *positions, int i, int found, double skin)
+static int choose_faces(const ContactLoop *loop, const ContactRun *run, ContactPart *part, int i, int found,
+                        double skin)
 {
     const ContactInterface *c = run->contact;
-    const double *x = positions + 3 * (ptrdiff_t)c->node[i];
-    int32_t *near = loop->grid->found;
-    int count = 0, covers = 0;
+    const double *positions = loop->state->contact_searched, *x = positions + 3 * (ptrdiff_t)c->node[i];
+    int32_t *near = part->found.item;
+    int count = 0, covers = 0, kept = 0;
     Cover cover[2];
-    if (memory_reserve((void **)&loop->height, &loop->height_capacity, (size_t)found + 1, sizeof *loop->height))
+    if (memory_reserve((void **)&part->height, &part->height_capacity, (size_t)found + 1, sizeof *part->height))
         return -1;
     for (int k = 0; k < found; k++) {
         int t = near[k];
@@ -176,45 +199,62 @@ static int choose_faces(ContactLoop *loop, ContactRun *run, const double *positi
         if (fabs(h) > c->node_radius[i] + c->triangle_radius[t] + skin || !contact_node_meets(loop->model, c, i, t))
             continue;
         near[count] = t;
-        loop->height[count++] = h;
+        part->height[count++] = h;
     }
     if (!loop->state->contact_sharp[c->first_deep + (size_t)i])
-        covers = find_covers(run, positions, x, near, count, loop->height, cover);
+        covers = find_covers(run, positions, x, near, count, part->height, cover);
     for (int k = 0; k < count; k++) {
         double margin = 0.5 * (c->node_radius[i] + c->triangle_radius[near[k]]);
-        if (is_hidden(cover, covers, run->plane + 4 * (ptrdiff_t)near[k], loop->height[k], margin)) continue;
-        run->used[near[k]] = 1;
-        if (pairs_add(&run->faces.pairs, near[k])) return -1;
+        if (!is_hidden(cover, covers, run->plane + 4 * (ptrdiff_t)near[k], part->height[k], margin))
+            near[kept++] = near[k];
     }
+    contact_sort(near, kept);
+    for (int k = 0; k < kept; k++)
+        if (part_add(part, near[k])) return -1;
     return 0;
 }
 
-static int find_faces(ContactLoop *loop, ContactRun *run, const double *x, double skin)
+/* Boxes and planes of a thread's share of the triangles. */
+static void box_faces(ContactLoop *loop, ContactRun *run, int thread, int threads)
 {
     const ContactInterface *c = run->contact;
-    ContactBox *box = loop->box;
-    double widest = 0.0;
+    const double *x = loop->state->contact_searched;
+    double widest = 0.0, skin = loop->state->contact->skin;
+    int first = first_of(c->triangle_count, thread, threads), end = first_of(c->triangle_count, thread + 1, threads);
     for (int i = 0; i < c->node_count; i++) widest = c->node_radius[i] > widest ? c->node_radius[i] : widest;
-    for (int t = 0; t < c->triangle_count; t++) {
-        contact_box_start(&box[t], x + 3 * (ptrdiff_t)c->triangle[3 * t]);
-        contact_box_add(&box[t], x + 3 * (ptrdiff_t)c->triangle[3 * t + 1]);
-        contact_box_add(&box[t], x + 3 * (ptrdiff_t)c->triangle[3 * t + 2]);
-        contact_box_grow(&box[t], c->triangle_radius[t] + widest + skin);
+    for (int t = first; t < end; t++) {
+        ContactBox *box = &loop->box[t];
+        for (int k = 0; k < 3; k++)
+            (k ? contact_box_add : contact_box_start)(box, x + 3 * (ptrdiff_t)c->triangle[3 * t + k]);
+        contact_box_grow(box, c->triangle_radius[t] + widest + skin);
     }
-    if (!loop->restored) mark_deep(run, loop->state->contact_sharp + c->first_deep);
-    contact_fill_planes(run, x, 0, c->triangle_count, true);
-    mark_calm(run);
-    memset(run->used, 0, (size_t)c->triangle_count);
-    int status = contact_grid_fill(loop->grid, box, c->triangle_count, c->longest_side + c->thickest + skin);
-    if (!status) status = pairs_begin(&run->faces);
-    for (int i = 0; i < c->node_count && !status; i++) {
+    contact_fill_planes(run, x, first, end, true);
+}
+
+static void find_faces(ContactLoop *loop, ContactRun *run, int thread, int threads)
+{
+    const ContactInterface *c = run->contact;
+    ContactPart *part = &loop->parts[thread];
+    part->count = 0;
+    part->failed = false;
+    for (int i = first_of(c->node_count, thread, threads); i < first_of(c->node_count, thread + 1, threads); i++) {
         ContactBox point;
-        run->faces.pairs.start[i] = (int32_t)run->faces.pairs.count;
-        contact_box_start(&point, x + 3 * (ptrdiff_t)c->node[i]);
-        int found = contact_grid_query(loop->grid, &point);
-        status = found < 0 ? -1 : choose_faces(loop, run, x, i, found, skin);
+        run->faces.pairs.start[i] = (int32_t)part->count;
+        contact_box_start(&point, loop->state->contact_searched + 3 * (ptrdiff_t)c->node[i]);
+        int found = contact_grid_query(&loop->grid, &point, &part->found);
+        if (found < 0 || choose_faces(loop, run, part, i, found, loop->state->contact->skin)) {
+            part->failed = true;
+            return;
+        }
     }
-    return status ? -1 : pairs_end(&run->faces);
+}
+
+/* Triangles that are candidates: their planes are kept up to date. */
+static void mark_used(ContactRun *run)
+{
+    const ContactPairs *pairs = &run->faces.pairs;
+    memset(run->used, 0, (size_t)run->contact->triangle_count);
+    for (size_t k = 0; k < pairs->count; k++) run->used[pairs->other[k]] = 1;
 }
 
 /* A free edge, a branch, or an edge at which the surface is turned. Planes are those at the search. */
@@ -260,34 +300,125 @@ static void box_edges(const ContactInterface *c, const double *x, double skin, c
     }
 }
 
-static int find_edges(ContactLoop *loop, ContactRun *run, const double *x, double skin)
+/* Is every point of the edge p-q farther than reach from one side of a plane? */
+static bool is_beyond(const double *plane, const double *p, const double *q, double reach)
 {
-    const ContactInterface *c = run->contact;
-    ContactBox *box = loop->box;
-    unsigned char *sharp = loop->state->contact_sharp + c->first_edge;
-    if (!loop->restored) mark_sharp(run, sharp);
-    box_edges(c, x, skin, sharp, box);
-    int status = contact_grid_fill(loop->grid, box, c->edge_count, c->longest_side + c->thickest + skin);
-    if (!status) status = pairs_begin(&run->edges);
-    for (int e = 0; e < c->edge_count && !status; e++) {
-        run->edges.pairs.start[e] = (int32_t)run->edges.pairs.count;
-        if (box[e].low[0] > box[e].high[0]) continue;
-        int found = contact_grid_query(loop->grid, &box[e]);
-        status = found < 0 ? -1 : 0;
-        for (int k = 0; k < found && !status; k++) {
-            int f = loop->grid->found[k];
-            if (f > e && edges_meet(loop, c, e, f)) status = pairs_add(&run->edges.pairs, f);
-        }
-    }
-    return status ? -1 : pairs_end(&run->edges);
+    double a = plane_height(plane, p), b = plane_height(plane, q);
+    return (a > reach && b > reach) || (a < -reach && b < -reach);
 }
 
-int contact_find_pairs(ContactLoop *loop, ContactRun *run, const double *x)
+/* Too far for the skin: each edge lies in the plane of its triangle. */
+static bool edges_apart(const ContactRun *run, const double *x, int e, int f, double skin)
 {
-    double skin = loop->state->contact->skin;
-    size_t boxes = (size_t)(run->contact->triangle_count > run->contact->edge_count ? run->contact->triangle_count
-                                                                                    : run->contact->edge_count);
-    if (memory_reserve((void **)&loop->box, &loop->box_capacity, boxes + 1, sizeof *loop->box)) return -1;
-    if (find_faces(loop, run, x, skin)) return -1;
-    return run->contact->edge_count > 0 ? find_edges(loop, run, x, skin) : 0;
+    const ContactInterface *c = run->contact;
+    const int32_t *a = c->edge + 2 * (ptrdiff_t)e, *b = c->edge + 2 * (ptrdiff_t)f;
+    double reach = c->edge_radius[e] + c->edge_radius[f] + skin;
+    return is_beyond(run->plane + 4 * (ptrdiff_t)c->edge_triangle[2 * e], x + 3 * (ptrdiff_t)b[0],
+                     x + 3 * (ptrdiff_t)b[1], reach) ||
+           is_beyond(run->plane + 4 * (ptrdiff_t)c->edge_triangle[2 * f], x + 3 * (ptrdiff_t)a[0],
+                     x + 3 * (ptrdiff_t)a[1], reach);
+}
+
+static void find_edges(ContactLoop *loop, ContactRun *run, int thread, int threads)
+{
+    const ContactInterface *c = run->contact;
+    const double *x = loop->state->contact_searched, skin = loop->state->contact->skin;
+    ContactPart *part = &loop->parts[thread];
+    part->count = 0;
+    part->failed = false;
+    for (int e = first_of(c->edge_count, thread, threads); e < first_of(c->edge_count, thread + 1, threads); e++) {
+        int kept = 0, found = 0;
+        run->edges.pairs.start[e] = (int32_t)part->count;
+        if (loop->box[e].low[0] > loop->box[e].high[0]) continue;
+        found = contact_grid_query(&loop->grid, &loop->box[e], &part->found);
+        int32_t *near = part->found.item;
+        for (int k = 0; k < found; k++)
+            if (near[k] > e && !edges_apart(run, x, e, near[k], skin) && edges_meet(loop, c, e, near[k]))
+                near[kept++] = near[k];
+        contact_sort(near, kept);
+        part->failed = found < 0;
+        for (int k = 0; k < kept && !part->failed; k++) part->failed = part_add(part, near[k]);
+        if (part->failed) return;
+    }
+}
+
+static void wait_for(Team *team)
+{
+    if (team) team_barrier(team);
+}
+
+static int begin_faces(ContactLoop *loop, ContactRun *run)
+{
+    const ContactInterface *c = run->contact;
+    if (!loop->restored) mark_deep(run, loop->state->contact_sharp + c->first_deep);
+    mark_calm(run);
+    return contact_grid_fill(&loop->grid, loop->box, c->triangle_count) || pairs_begin(&run->faces);
+}
+
+static int end_faces(ContactLoop *loop, ContactRun *run, int threads)
+{
+    if (pairs_join(loop, &run->faces, threads) || pairs_end(&run->faces)) return -1;
+    mark_used(run);
+    return 0;
+}
+
+static int begin_edges(ContactLoop *loop, ContactRun *run)
+{
+    const ContactInterface *c = run->contact;
+    unsigned char *sharp = loop->state->contact_sharp + c->first_edge;
+    if (!loop->restored) mark_sharp(run, sharp);
+    box_edges(c, loop->state->contact_searched, loop->state->contact->skin, sharp, loop->box);
+    return contact_grid_fill(&loop->grid, loop->box, c->edge_count) || pairs_begin(&run->edges);
+}
+
+static int end_edges(ContactLoop *loop, ContactRun *run, int threads)
+{
+    return pairs_join(loop, &run->edges, threads) || pairs_end(&run->edges);
+}
+
+/* Without memory: nothing meets until the run ends in this cycle. */
+static void forget_pairs(ContactList *list)
+{
+    list->pairs.count = 0;
+    memory_free(list->pairs.start);
+    list->pairs.start = NULL;
+    list->pairs.start_capacity = 0;
+}
+
+/* One contact; all threads of the team, which part the work between barriers. */
+static void find_pairs(ContactLoop *loop, ContactRun *run, int thread, Team *team)
+{
+    int threads = team ? team_size(team) : 1;
+    const ContactInterface *c = run->contact;
+    size_t boxes = (size_t)(c->triangle_count > c->edge_count ? c->triangle_count : c->edge_count);
+    if (thread == 0 && memory_reserve((void **)&loop->box, &loop->box_capacity, boxes + 1, sizeof *loop->box))
+        loop->out_of_memory = true;
+    wait_for(team);
+    if (loop->out_of_memory) return;
+    box_faces(loop, run, thread, threads);
+    wait_for(team);
+    if (thread == 0 && begin_faces(loop, run)) loop->out_of_memory = true;
+    wait_for(team);
+    if (loop->out_of_memory) return;
+    find_faces(loop, run, thread, threads);
+    wait_for(team);
+    if (thread == 0 && (end_faces(loop, run, threads) || (c->edge_count > 0 && begin_edges(loop, run))))
+        loop->out_of_memory = true;
+    if (c->edge_count == 0) return;
+    wait_for(team);
+    if (loop->out_of_memory) return;
+    find_edges(loop, run, thread, threads);
+    wait_for(team);
+    if (thread == 0 && end_edges(loop, run, threads)) loop->out_of_memory = true;
+}
+
+void contact_find_pairs(ContactLoop *loop, int thread, Team *team)
+{
+    for (int i = 0; i < loop->model->contact_count; i++) find_pairs(loop, &loop->runs[i], thread, team);
+    wait_for(team);
+    for (int i = 0; thread == 0 && loop->out_of_memory && i < loop->model->contact_count; i++) {
+        loop->runs[i].alive = false;
+        forget_pairs(&loop->runs[i].faces);
+        forget_pairs(&loop->runs[i].edges);
+    }
 }

@@ -1,5 +1,5 @@
-/* A uniform spatial hash. Every box is entered into all cells it overlaps, so that a point needs one cell only; a pair
- * is reported by the one cell that holds the low corner of its overlap. */
+/* A dense grid of cells. Each box is in the cell of its centre; a query looks at the cells that centres of overlapping
+ * boxes can lie in. Cells along z follow each other, so that one row of them is one run of bounds. */
 #include "contact/contact_grid.h"
 
 #include <math.h>
@@ -7,83 +7,132 @@
 
 #include "solver/memory.h"
 
-enum { MOST_CELLS = 256 };
+/* A box with half extents beyond this many times the mean is kept out of the cells. */
+#define LARGE 3.0
 
-/* Cells that a box overlaps. */
-typedef struct CellRange {
-    int64_t low[3], high[3];
-    int64_t count;
-} CellRange;
+/* Bounds in single precision are rounded outward by this share of their distance from the origin. */
+#define ROUNDING 2.5e-7f
 
-static CellRange cells_of(const ContactGrid *grid, const ContactBox *box)
+static double largest_half_extent(const ContactBox *box)
 {
-    CellRange range = {.count = 1};
-    for (int k = 0; k < 3; k++) {
-        range.low[k] = (int64_t)floor(box->low[k] / grid->cell);
-        range.high[k] = (int64_t)floor(box->high[k] / grid->cell);
-        int64_t span = range.high[k] - range.low[k] + 1;
-        range.count = span > MOST_CELLS || range.count > MOST_CELLS ? MOST_CELLS + 1 : range.count * span;
-    }
-    return range;
+    double half = 0.0;
+    for (int k = 0; k < 3; k++) half = fmax(half, 0.5 * (box->high[k] - box->low[k]));
+    return half;
 }
 
-static uint32_t bucket_of(const ContactGrid *grid, int64_t i, int64_t j, int64_t k)
+static bool left_out(const ContactBox *box)
 {
-    uint64_t h =
-        (uint64_t)i * 0x9e3779b97f4a7c15u + (uint64_t)j * 0xc2b2ae3d27d4eb4fu + (uint64_t)k * 0x165667b19e3779f9u;
-    return (uint32_t)(h >> 32) & grid->mask;
+    return box->low[0] > box->high[0];
 }
 
-/* Adds each cell of the range to the counts (entry NULL), or enters the box there. */
-static void enter(ContactGrid *grid, const CellRange *range, int32_t box, int32_t *start, int32_t *entry)
+/* Cell along one axis of a distance from the origin; what is outside, or no number, is put into the outer cells. */
+static int32_t cell_along(const ContactGrid *grid, int axis, double distance)
 {
-    for (int64_t i = range->low[0]; i <= range->high[0]; i++)
-        for (int64_t j = range->low[1]; j <= range->high[1]; j++)
-            for (int64_t k = range->low[2]; k <= range->high[2]; k++) {
-                int32_t place = start[bucket_of(grid, i, j, k)]++;
-                if (entry) entry[place] = box;
-            }
+    double place = distance * grid->inverse;
+    if (!(place > 0.0)) return 0;
+    return place < (double)(grid->size[axis] - 1) ? (int32_t)place : grid->size[axis] - 1;
 }
 
-static int reserve_buckets(ContactGrid *grid, int count)
+/* Cells as large as the mean box, and no more of them than four for each box. */
+static void lay_cells(ContactGrid *grid, const ContactBox *box, int count)
 {
-    uint32_t size = 64;
-    while (size < 4u * (uint32_t)count) size *= 2;
-    grid->mask = size - 1;
-    if (memory_reserve((void **)&grid->start, &grid->start_capacity, (size_t)size + 3, sizeof *grid->start)) return -1;
-    for (uint32_t i = 0; i < size + 3; i++) grid->start[i] = 0;
-    return 0;
-}
-
-int contact_grid_fill(ContactGrid *grid, const ContactBox *box, int count, double cell)
-{
-    grid->box = box;
-    grid->count = count;
-    grid->cell = cell;
-    grid->large_count = 0;
-    if (reserve_buckets(grid, count)) return -1;
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, sum = 0.0;
+    int boxes = 0;
     for (int b = 0; b < count; b++) {
-        if (box[b].low[0] > box[b].high[0]) continue;
-        CellRange range = cells_of(grid, &box[b]);
-        if (range.count <= MOST_CELLS) {
-            enter(grid, &range, b, grid->start + 2, NULL);
+        if (left_out(&box[b])) continue;
+        for (int k = 0; k < 3; k++) {
+            double centre = 0.5 * (box[b].low[k] + box[b].high[k]);
+            low[k] = centre < low[k] ? centre : low[k];
+            high[k] = centre > high[k] ? centre : high[k];
+        }
+        sum += largest_half_extent(&box[b]);
+        boxes++;
+    }
+    double side = boxes > 0 && sum > 0.0 ? sum / boxes : 1.0, most = 4.0 * boxes + 64.0;
+    for (int k = 0; k < 3; k++) grid->origin[k] = boxes > 0 && isfinite(low[k]) ? low[k] : 0.0;
+    grid->reach = LARGE * side;
+    for (int tries = 0;; tries++, side *= 1.3) {
+        double cells = 1.0;
+        grid->inverse = 1.0 / side;
+        for (int k = 0; k < 3; k++) {
+            double along = boxes > 0 ? floor((high[k] - low[k]) * grid->inverse) + 1.0 : 1.0;
+            if (!(along >= 1.0) || tries > 200) along = 1.0; /* no number */
+            grid->size[k] = along < most ? (int32_t)along : (int32_t)most;
+            cells *= along;
+        }
+        if (cells <= most || tries > 200) return;
+    }
+}
+
+/* Cell of each box; counts those of each cell in start, two places on. */
+static int assign_cells(ContactGrid *grid)
+{
+    double widest = 0.0;
+    for (int32_t b = 0; b < grid->count; b++) {
+        const ContactBox *box = &grid->all[b];
+        grid->cell[b] = -2;
+        if (left_out(box)) continue;
+        double half = largest_half_extent(box);
+        if (half > grid->reach) {
+            grid->cell[b] = -1;
+            if (memory_reserve((void **)&grid->large, &grid->large_capacity, (size_t)grid->large_count + 1,
+                               sizeof *grid->large))
+                return -1;
+            grid->large[grid->large_count++] = b;
             continue;
         }
-        if (memory_reserve((void **)&grid->large, &grid->large_capacity, (size_t)grid->large_count + 1,
-                           sizeof *grid->large))
-            return -1;
-        grid->large[grid->large_count++] = b;
+        int32_t at[3];
+        for (int k = 0; k < 3; k++) at[k] = cell_along(grid, k, 0.5 * (box->low[k] + box->high[k]) - grid->origin[k]);
+        grid->cell[b] = (at[0] * grid->size[1] + at[1]) * grid->size[2] + at[2];
+        grid->start[grid->cell[b] + 2]++;
+        grid->sorted_count++;
+        widest = half > widest ? half : widest;
     }
-    for (uint32_t i = 0; i <= grid->mask; i++) grid->start[i + 2] += grid->start[i + 1];
-    if (memory_reserve((void **)&grid->entry, &grid->entry_capacity, (size_t)grid->start[grid->mask + 2] + 1,
-                       sizeof *grid->entry))
+    grid->reach = widest;
+    return 0;
+}
+
+int contact_grid_fill(ContactGrid *grid, const ContactBox *box, int count)
+{
+    grid->all = box;
+    grid->count = count;
+    grid->large_count = grid->sorted_count = 0;
+    lay_cells(grid, box, count);
+    size_t cells = (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2], boxes = (size_t)count + 1;
+    if (memory_reserve((void **)&grid->start, &grid->start_capacity, cells + 3, sizeof *grid->start) ||
+        memory_reserve((void **)&grid->box, &grid->box_capacity, boxes, sizeof *grid->box) ||
+        memory_reserve((void **)&grid->cell, &grid->cell_capacity, boxes, sizeof *grid->cell) ||
+        memory_reserve((void **)&grid->bounds, &grid->bounds_capacity, 6 * boxes, sizeof *grid->bounds))
         return -1;
-    for (int b = 0; b < count; b++) {
-        if (box[b].low[0] > box[b].high[0]) continue;
-        CellRange range = cells_of(grid, &box[b]);
-        if (range.count <= MOST_CELLS) enter(grid, &range, b, grid->start + 1, grid->entry);
+    for (size_t i = 0; i < cells + 3; i++) grid->start[i] = 0;
+    if (assign_cells(grid)) return -1;
+    for (size_t i = 0; i < cells; i++) grid->start[i + 2] += grid->start[i + 1];
+    for (int32_t b = 0; b < count; b++) {
+        if (grid->cell[b] < 0) continue;
+        int32_t place = grid->start[grid->cell[b] + 1]++;
+        grid->box[place] = b;
+        for (int k = 0; k < 3; k++) {
+            float low = (float)(box[b].low[k] - grid->origin[k]), high = (float)(box[b].high[k] - grid->origin[k]);
+            grid->bounds[k * grid->sorted_count + place] = low - ROUNDING * fabsf(low);
+            grid->bounds[(3 + k) * grid->sorted_count + place] = high + ROUNDING * fabsf(high);
+        }
     }
     return 0;
+}
+
+/* Those of one run of bounds that overlap the query q: low x y z, high x y z. */
+static int query_run(const ContactGrid *grid, const float q[6], int32_t first, int32_t end, int32_t *found)
+{
+    const float *low = grid->bounds, *high = low + 3 * (ptrdiff_t)grid->sorted_count;
+    ptrdiff_t n = grid->sorted_count;
+    int count = 0;
+    for (int32_t p = first; p < end; p++) {
+        int miss = (low[p] > q[3]) | (low[n + p] > q[4]) | (low[2 * n + p] > q[5]) | (high[p] < q[0]) |
+                   (high[n + p] < q[1]) | (high[2 * n + p] < q[2]);
+        found[count] = grid->box[p];
+        count += !miss;
+    }
+    return count;
 }
 
 static int overlap(const ContactBox *a, const ContactBox *b)
@@ -92,43 +141,34 @@ static int overlap(const ContactBox *a, const ContactBox *b)
            a->low[2] <= b->high[2] && b->low[2] <= a->high[2];
 }
 
-/* Does the low corner of the overlap of a and b lie in cell (i, j, k)? */
-static int is_home(const ContactGrid *grid, const ContactBox *a, const ContactBox *b, const int64_t cell[3])
+int contact_grid_query(const ContactGrid *grid, const ContactBox *box, ContactFound *found)
 {
+    int32_t low[3], high[3];
+    float q[6];
+    int count = 0;
     for (int k = 0; k < 3; k++) {
-        double low = a->low[k] > b->low[k] ? a->low[k] : b->low[k];
-        if ((int64_t)floor(low / grid->cell) != cell[k]) return 0;
+        double from = box->low[k] - grid->origin[k], to = box->high[k] - grid->origin[k];
+        low[k] = cell_along(grid, k, from - grid->reach);
+        high[k] = cell_along(grid, k, to + grid->reach);
+        q[k] = (float)from - ROUNDING * fabsf((float)from);
+        q[3 + k] = (float)to + ROUNDING * fabsf((float)to);
     }
-    return 1;
-}
-
-/* Boxes of one cell. Those that enter a bucket through several cells follow each other there. */
-static int query_cell(ContactGrid *grid, const ContactBox *box, const int64_t cell[3], int found)
-{
-    uint32_t bucket = bucket_of(grid, cell[0], cell[1], cell[2]);
-    int32_t first = grid->start[bucket], end = grid->start[bucket + 1], last = -1;
-    if (memory_reserve((void **)&grid->found, &grid->found_capacity, (size_t)(found + end - first) + 1,
-                       sizeof *grid->found))
+    for (int32_t i = low[0]; i <= high[0]; i++)
+        for (int32_t j = low[1]; j <= high[1]; j++) {
+            ptrdiff_t row = ((ptrdiff_t)i * grid->size[1] + j) * grid->size[2];
+            int32_t first = grid->start[row + low[2]], end = grid->start[row + high[2] + 1];
+            if (first == end) continue;
+            if (memory_reserve((void **)&found->item, &found->capacity, (size_t)(count + end - first) + 1,
+                               sizeof *found->item))
+                return -1;
+            count += query_run(grid, q, first, end, found->item + count);
+        }
+    if (memory_reserve((void **)&found->item, &found->capacity, (size_t)(count + grid->large_count) + 1,
+                       sizeof *found->item))
         return -1;
-    for (int32_t e = first; e < end; e++) {
-        int32_t b = grid->entry[e];
-        if (b == last || !overlap(box, &grid->box[b]) || !is_home(grid, box, &grid->box[b], cell)) continue;
-        grid->found[found++] = last = b;
-    }
-    return found;
-}
-
-static int query_all(ContactGrid *grid, const ContactBox *box)
-{
-    int found = 0;
-    for (int b = 0; b < grid->count; b++) {
-        const ContactBox *other = &grid->box[b];
-        if (other->low[0] > other->high[0] || !overlap(box, other)) continue;
-        if (memory_reserve((void **)&grid->found, &grid->found_capacity, (size_t)found + 1, sizeof *grid->found))
-            return -1;
-        grid->found[found++] = b;
-    }
-    return found;
+    for (int32_t l = 0; l < grid->large_count; l++)
+        if (overlap(box, &grid->all[grid->large[l]])) found->item[count++] = grid->large[l];
+    return count;
 }
 
 static int compare_int32(const void *a, const void *b)
@@ -137,38 +177,27 @@ static int compare_int32(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-int contact_grid_query(ContactGrid *grid, const ContactBox *box)
+void contact_sort(int32_t *item, int count)
 {
-    CellRange range = cells_of(grid, box);
-    int found = 0;
-    if (range.count > MOST_CELLS) return query_all(grid, box);
-    for (int64_t i = range.low[0]; i <= range.high[0]; i++)
-        for (int64_t j = range.low[1]; j <= range.high[1]; j++)
-            for (int64_t k = range.low[2]; k <= range.high[2]; k++) {
-                found = query_cell(grid, box, (int64_t[]){i, j, k}, found);
-                if (found < 0) return -1;
-            }
-    if (memory_reserve((void **)&grid->found, &grid->found_capacity, (size_t)(found + grid->large_count) + 1,
-                       sizeof *grid->found))
-        return -1;
-    for (int l = 0; l < grid->large_count; l++)
-        if (overlap(box, &grid->box[grid->large[l]])) grid->found[found++] = grid->large[l];
-    for (int n = 1; n < found && found <= 64; n++)
-        for (int m = n; m > 0 && grid->found[m] < grid->found[m - 1]; m--) {
-            int32_t swap = grid->found[m];
-            grid->found[m] = grid->found[m - 1];
-            grid->found[m - 1] = swap;
-        }
-    if (found > 64) qsort(grid->found, (size_t)found, sizeof *grid->found, compare_int32);
-    return found;
+    if (count > 64) {
+        qsort(item, (size_t)count, sizeof *item, compare_int32);
+        return;
+    }
+    for (int n = 1; n < count; n++) {
+        int32_t moved = item[n];
+        int m = n;
+        for (; m > 0 && item[m - 1] > moved; m--) item[m] = item[m - 1];
+        item[m] = moved;
+    }
 }
 
 void contact_grid_free(ContactGrid *grid)
 {
     if (!grid) return;
     memory_free(grid->start);
-    memory_free(grid->entry);
+    memory_free(grid->box);
+    memory_free(grid->cell);
+    memory_free(grid->bounds);
     memory_free(grid->large);
-    memory_free(grid->found);
     *grid = (ContactGrid){0};
 }

@@ -2,15 +2,17 @@
 #ifndef BILLOW_CONTACT_LOOP_H
 #define BILLOW_CONTACT_LOOP_H
 
+#include "contact/contact_grid.h"
+#include "contact/contact_motion.h"
 #include "elements/kernels.h"
 #include "solver/model.h"
 #include "solver/state.h"
+#include "solver/team.h"
 
 enum {
-    CONTACT_ROW = 8,          /* doubles of a row of corner sums, elements/kernels.h: force, load, four zeros */
-    CONTACT_SLOTS = 8,        /* pairs that a node or an edge can be in contact by */
-    CONTACT_CHUNK = 64,       /* nodes or edges of one fixed piece of work */
-    CONTACT_NODE_CHUNK = 256, /* nodes of one fixed partial sum of work */
+    CONTACT_ROW = 8,    /* doubles of a row of corner sums, elements/kernels.h: force, load, four zeros */
+    CONTACT_SLOTS = 8,  /* pairs that a node or an edge can be in contact by */
+    CONTACT_CHUNK = 64, /* nodes or edges of one fixed piece of work */
 };
 
 /* One pair that touches, or will in the coming step: what its four nodes get. */
@@ -50,7 +52,7 @@ typedef struct ContactSums {
 typedef struct ContactPairs {
     int32_t *start;      /* (owner_count + 1) */
     int32_t *other;      /* (count) */
-    double *wake;        /* motion from which on the pair may touch (count) [L] */
+    double *wake;        /* ways of both groups together from which on the pair may touch (count) [L] */
     unsigned char *slot; /* of the owner's memories, from 1; 0 none (count) */
     size_t count, start_capacity, other_capacity, wake_capacity, slot_capacity;
 } ContactPairs;
@@ -59,6 +61,7 @@ typedef struct ContactPairs {
 typedef struct ContactList {
     int owner_count, chunk_count;
     ContactMemory *memory;      /* of each owner (owner_count x CONTACT_SLOTS); free ones have side 0 */
+    double *depth;              /* how deep each node was behind a surface at its last look (owner_count) [L] */
     ContactPairs pairs, before; /* before: those of the search before, whose room the next one takes */
     ContactForce *forces;       /* of chunk c from start[c CONTACT_CHUNK] on (count) */
     size_t force_capacity;
@@ -87,6 +90,7 @@ static inline void contact_keep(ContactList *list, int owner, int32_t pair, cons
     for (int k = 0; k < CONTACT_SLOTS; k++) {
         if (of_owner[k].side) continue;
         of_owner[k] = *memory;
+        if (-memory->gap > list->depth[owner]) list->depth[owner] = -memory->gap;
         list->pairs.slot[pair] = (unsigned char)(k + 1);
         return;
     }
@@ -96,6 +100,7 @@ static inline void contact_keep(ContactList *list, int owner, int32_t pair, cons
 typedef struct ContactRun {
     const ContactInterface *contact;
     ContactList faces, edges;
+    ContactGroups nodes, triangles, lines; /* motion of the owners of faces, of triangles, and of edges */
     double *plane;       /* unit normal and offset of each triangle in candidate lists, at x_n (triangle_count x 4) */
     unsigned char *used; /* triangles in candidate lists (triangle_count) */
     unsigned char *calm; /* workspace of the search: triangles with three neighbours nearly in their plane */
@@ -104,20 +109,20 @@ typedef struct ContactRun {
     double *force;   /* on side A at t_n, in resultant [F] */
 } ContactRun;
 
-/* Sums over one chunk of nodes after the step. */
-typedef struct ContactMotion {
-    double power;   /* of the contact forces on the velocities at n + 1/2 */
-    double fastest; /* largest v.v */
-    double moved;   /* largest squared way since the search */
-} ContactMotion;
-
 /* Coefficients of a cycle. */
 typedef struct ContactStep {
     double time, before, next; /* t_n, dt_{n-1/2}, dt_{n+1/2} */
-    double near;               /* how much farther than the thickness a pair may matter in this step [L] */
-    double ahead;              /* motion that wakes sleeping pairs */
     double longer;             /* the longer of the two steps */
 } ContactStep;
+
+/* What one thread finds: candidates of its share of the owners, and its workspace. */
+typedef struct ContactPart {
+    int32_t *other;
+    double *height; /* of a node over the triangles found */
+    size_t count, other_capacity, height_capacity;
+    ContactFound found;
+    bool failed; /* no memory */
+} ContactPart;
 
 typedef struct ContactLoop {
     const Model *model;
@@ -128,20 +133,18 @@ typedef struct ContactLoop {
     double *corner;         /* rows with contact forces x, y, z and load of each node (node_count x CONTACT_ROW) */
     ContactMotion *motions; /* (motion_count) */
     int motion_count;
-    double motion;  /* sum of the largest speed times the step: no node has gone farther since the start [L] */
     double fastest; /* largest speed now */
     double power, power_after;
     bool search_due, pending;
     ContactStep step;
-    struct ContactGrid *grid;
-    struct ContactBox *box; /* workspace of the search */
+    ContactGrid grid;
+    ContactBox *box;    /* workspace of the search */
+    ContactPart *parts; /* by thread (BILLOW_MAX_THREADS) */
     size_t box_capacity;
     double *room; /* at the last search: (w dt)^2 that contact may add at a node in direction d is 1/(d . room d); xx yy
                    * zz xy yz zx (node_count x 6) */
     double *around; /* workspace: mass of the elements at each node (node_count) */
-    double *height; /* of a node over the triangles found */
-    size_t height_capacity;
-    bool restored; /* the first search of a restart: at the place and with the edges of the last one */
+    bool restored;  /* the first search of a restart: at the place and with the edges of the last one */
     int64_t searches;
     double search_seconds;
     bool out_of_memory;
@@ -155,8 +158,8 @@ void contact_free(ContactLoop *loop);
 
 /* The stages. */
 void contact_planes(ContactLoop *loop, int thread, int threads); /* all, at x_n: planes of the triangles */
-/* thread 0: search where it is due */
-void contact_prepare(ContactLoop *loop, double time, double before, double next);
+/* all: search where it is due; team: whose threads these are */
+void contact_prepare(ContactLoop *loop, double time, double before, double next, int thread, Team *team);
 void contact_forces(ContactLoop *loop, int thread, int threads);                 /* all: narrow phase and forces */
 void contact_gather(ContactLoop *loop, int thread, int threads);                 /* all: forces to nodes */
 void contact_follow(ContactLoop *loop, int thread, int threads, double pending); /* all, after the node pass; pending:
@@ -178,8 +181,8 @@ void contact_meet_edges(ContactLoop *loop, ContactRun *run, const struct Contact
 /* Edge pairs that have ended leave their memory to the pair beside them that the crossing has slid onto. Thread 0. */
 void contact_pass_on(ContactLoop *loop, ContactRun *run);
 
-/* New candidate lists at the positions x (node_count x 3); memories of pairs stay with them. 0, or -1 without memory.
- */
-int contact_find_pairs(ContactLoop *loop, ContactRun *run, const double *x);
+/* New candidate lists of all contacts at State.contact_searched, by all threads of the team; team NULL: by this thread
+ * alone. Memories of pairs stay with them. Without memory out_of_memory is set and the lists are empty. */
+void contact_find_pairs(ContactLoop *loop, int thread, Team *team);
 
 #endif

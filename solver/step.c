@@ -203,7 +203,7 @@ static double lap(double *since)
 /* Contact forces at x_n into the corner buffer. */
 static void step_contact(Workspace *w, int thread, int threads, Team *team)
 {
-    if (thread == 0) contact_prepare(w->contact, w->plan.time, w->plan.dt_before, w->plan.dt_next);
+    contact_prepare(w->contact, w->plan.time, w->plan.dt_before, w->plan.dt_next, thread, team);
     team_barrier(team);
     contact_forces(w->contact, thread, threads);
     team_barrier(team);
