@@ -208,3 +208,49 @@ double reference_energy(const ElementGroup *group, const double *geometry, const
     }
     return energy;
 }
+
+/* Stress of a point in the metric c, with that of DAMP if before, the metric a step earlier, is given (eq. E13). */
+static void point_stress(const ElementGroup *group, const double *tail, const double *c, const double *before,
+                         const double *memory, double dt, double stress[3])
+{
+    const FabricLaw *law = &group->material;
+    double kept[MEMORY_POINT_SIZE] = {0};
+    LawPoint point;
+    for (int i = 0; memory && i < law_memory_size(group->law, law); i++) kept[i] = memory[(ptrdiff_t)i * LANES];
+    law_point(group->law, law, c, kept, 1, 0.0, 0.0, &point);
+    for (int i = 0; i < 3; i++) stress[i] = point.stress[i];
+    double rate = tail[GEOMETRY_RATE * LANES];
+    if (!before || !(law->damping > 0.0) || !(rate > 0.0)) return;
+    double factor = law->damping / (dt * sqrt(rate)), d11 = factor * (c[0] - before[0]),
+           d22 = factor * (c[1] - before[1]);
+    stress[0] += law->whole.d11 * d11 + law->whole.d12 * d22;
+    stress[1] += law->whole.d12 * d11 + law->whole.d22 * d22;
+    stress[2] += 2.0 * law->whole.d33 * factor * (c[2] - before[2]);
+}
+
+double reference_work(const ElementGroup *group, const double *geometry, const double *x, const double *v, double dt,
+                      const double *memory, bool damped, int64_t place)
+{
+    const double *tail = geometry + (ptrdiff_t)group->point_count * GEOMETRY_POINT_SIZE * LANES;
+    double corner[3][4][3], velocity[4][3], work = 0.0;
+    LanePoint now[4], back[4], ahead[4];
+    lane_corners(group, x, place, corner[0]);
+    lane_corners(group, v, place, velocity);
+    for (int a = 0; a < group->corner_count; a++) {
+        for (int k = 0; k < 3; k++) {
+            corner[1][a][k] = corner[0][a][k] - dt * velocity[a][k];
+            corner[2][a][k] = corner[0][a][k] + dt * velocity[a][k];
+        }
+    }
+    lane_points(group, geometry, corner[0], now);
+    lane_points(group, geometry, corner[1], back);
+    lane_points(group, geometry, corner[2], ahead);
+    for (int p = 0; p < group->point_count; p++) {
+        double s[3], change[3]; /* the metric is quadratic in the positions: the part of first order */
+        for (int i = 0; i < 3; i++) change[i] = 0.5 * (ahead[p].c[i] - back[p].c[i]);
+        point_stress(group, tail, now[p].c, damped ? back[p].c : NULL,
+                     memory ? memory + (ptrdiff_t)p * MEMORY_POINT_SIZE * LANES : NULL, dt, s);
+        work += 0.5 * now[p].weight * (s[0] * change[0] + s[1] * change[1] + 2.0 * s[2] * change[2]);
+    }
+    return work;
+}

@@ -53,6 +53,7 @@ static void run_chunk(Workspace *w, int number, int chunk)
                          .rows = w->rows,
                          .restart_ledger = w->state->clock->cycle == 0};
     w->chunks[chunk] = (ChunkSums){0};
+    if (group->has_reference && step_reference_changes(w, number)) input.rows = NULL;
     kernels_for(w->kernels, group)(&input, &w->chunks[chunk]);
     if (group->has_reference) step_reference_chunk(w, number, chunk, &input, &w->chunks[chunk]);
     if (m->ties.count > 0) step_ties_watch(w, number, chunk);
@@ -118,7 +119,7 @@ static int allocate(Workspace *w)
     w->drag = memory_alloc(3 * special + 1, sizeof(double));
     w->newton = memory_alloc(3 * special + 1, sizeof(double));
     if (reference_work_create(m, w->state, &w->reference)) return -1;
-    w->reference_jump = memory_alloc(m->has_reference ? (size_t)m->chunk_count + 1 : 1, sizeof(double));
+    w->reference_jump = memory_alloc(m->has_reference ? (size_t)m->chunk_count + 1 : 1, sizeof *w->reference_jump);
     w->tie_strain = memory_alloc((size_t)m->ties.slot_count + 1, sizeof(double));
     w->tie_volume = memory_alloc((size_t)m->ties.slot_count + 1, sizeof(double));
     w->gas_pass = memory_alloc(((size_t)w->node_chunk_count + 1) * bags, sizeof *w->gas_pass);

@@ -45,7 +45,7 @@ static double sum_chunks(Workspace *w)
             double change = sum.energy - state->group_energy[g];
             state->part_energy[group->part] += change;
             for (int c = 0; group->has_reference && c < chunks; c++)
-                change -= w->reference_jump[group->first_chunk + c];
+                change -= w->reference_jump[group->first_chunk + c].energy;
             if (group->has_history && state->clock->cycle > 0) stored_change += sum.viscous - change;
             state->group_energy[g] = sum.energy;
         }

@@ -37,6 +37,24 @@ static double stored(const Workspace *w, const ElementGroup *group, int first, i
     return sum;
 }
 
+/* Work of the stress of all elements of the blocks on the way of the last step. */
+static double work_of_step(const Workspace *w, const ElementGroup *group, bool loaded, int first, int end)
+{
+    const double dt = w->state->clock->step;
+    const bool remembers = loaded && law_memory_size(group->law, &group->material) > 0;
+    double sum = 0.0;
+    for (int64_t place = (int64_t)first * BILLOW_LANES;
+         dt > 0.0 && place < (int64_t)end * BILLOW_LANES && place < group->element_count; place++) {
+        const double *memory =
+            w->state->history + group->history_offset +
+            (place / BILLOW_LANES * group->history_size + history_size(group->point_count)) * BILLOW_LANES +
+            place % BILLOW_LANES;
+        sum += reference_work(group, group->geometry + lane_offset(group, place), w->state->x, w->state->v, dt,
+                              remembers ? memory : NULL, loaded, place);
+    }
+    return sum;
+}
+
 /* At birth: elements that are taut in the reference do not wait. */
 static void find_taut(Workspace *w, int number, const KernelInput *input)
 {
@@ -62,12 +80,13 @@ static void forget_loads(Workspace *w, const ElementGroup *group, int first, int
 /* The blocks' constants change: the kernel is called once more with the new ones, which fills the histories anew; the
  * energy that the change brings is counted apart (eq. R10). */
 static void change_reference(Workspace *w, int number, const KernelInput *input, const ReferenceState *next,
-                             ChunkSums *sums, double *jump)
+                             ChunkSums *sums, ReferenceJump *jump)
 {
     const Model *m = w->model;
     ElementGroup later = w->reference.groups[number];
     const bool by_work = !law_stores_energy(later.law, &later.material);
     const double before = by_work ? stored(w, &later, input->first_block, input->end_block) : sums->energy;
+    const double held = work_of_step(w, &later, true, input->first_block, input->end_block);
     if (next->born && !w->state->reference[number].born && later.rule.liner_waits) find_taut(w, number, input);
     if (w->reference.own[number]) {
         reference_work_fill(m, w->state, number, next, input->first_block, input->end_block, w->reference.own[number]);
@@ -79,19 +98,21 @@ static void change_reference(Workspace *w, int number, const KernelInput *input,
     KernelInput again = *input;
     ChunkSums changed = {0};
     again.group = &later;
-    again.rows = NULL;
+    again.rows = w->rows; /* from t_n on the new stress acts; the call before has left the rows alone */
     again.restart_ledger = true;
     again.inverse_step = 0.0; /* no strain rate from one reference to the other */
     kernels_for(w->kernels, &later)(&again, &changed);
     const double after = by_work ? stored(w, &later, input->first_block, input->end_block) : changed.energy;
-    *jump += (after - before) + (changed.hourglass - sums->hourglass);
+    jump->energy += after - before;
+    jump->outside += (changed.hourglass - sums->hourglass) +
+                     0.5 * (held - work_of_step(w, &later, false, input->first_block, input->end_block));
     sums->energy += after - before;
     sums->hourglass = changed.hourglass;
     sums->rate = changed.rate > sums->rate ? changed.rate : sums->rate;
 }
 
 /* Liners of elements that are taut for the first time act from now on (LNRC). */
-static void wake_liners(Workspace *w, int number, const KernelInput *input, ChunkSums *sums, double *jump)
+static void wake_liners(Workspace *w, int number, const KernelInput *input, ChunkSums *sums, ReferenceJump *jump)
 {
     const ElementGroup *group = &w->reference.groups[number];
     const ReferenceState *now = &w->state->reference[number];
@@ -107,16 +128,23 @@ static void wake_liners(Workspace *w, int number, const KernelInput *input, Chun
         reference_constants(&w->model->groups[number], now->applied, true, place, lane);
         double energy = reference_energy(group, lane, w->state->x, place);
         sums->energy += energy;
-        *jump += energy;
+        jump->energy += energy;
     }
+}
+
+bool step_reference_changes(const Workspace *w, int number)
+{
+    const ElementGroup *group = &w->reference.groups[number];
+    const ReferenceState *now = &w->state->reference[number], next = next_reference(w, group, now);
+    return next.born != now->born || next.applied != now->applied;
 }
 
 void step_reference_chunk(Workspace *w, int number, int chunk, const KernelInput *input, ChunkSums *sums)
 {
     const ElementGroup *group = &w->reference.groups[number];
     const ReferenceState *now = &w->state->reference[number], next = next_reference(w, group, now);
-    double *jump = &w->reference_jump[chunk];
-    *jump = 0.0;
+    ReferenceJump *jump = &w->reference_jump[chunk];
+    *jump = (ReferenceJump){0};
     if (now->born) {
         double rate =
             reference_rate(group, group->geometry, input->first_block, input->end_block, w->state->x, input->lane_rate);
@@ -136,7 +164,8 @@ double step_reference_advance(Workspace *w)
         ElementGroup *group = &w->reference.groups[g];
         if (!group->has_reference) continue;
         int chunks = (group->block_count + BILLOW_CHUNK - 1) / BILLOW_CHUNK;
-        for (int c = 0; c < chunks; c++) sum += w->reference_jump[group->first_chunk + c];
+        for (int c = 0; c < chunks; c++)
+            sum += w->reference_jump[group->first_chunk + c].energy + w->reference_jump[group->first_chunk + c].outside;
         w->state->reference[g] = next_reference(w, group, &w->state->reference[g]);
         reference_work_select(m, w->state, g, &w->reference);
     }

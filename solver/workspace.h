@@ -107,6 +107,12 @@ typedef struct WallSums {
     double normal;     /* sum of the normal parts */
 } WallSums;
 
+/* What a change of the reference brings to the energies of a chunk at t_n (eq. R10, R10a). */
+typedef struct ReferenceJump {
+    double energy;  /* stored in the elements */
+    double outside; /* of the hourglass control, and the work of the stress that the change takes away */
+} ReferenceJump;
+
 typedef struct Workspace {
     const Model *model;
     State *state;
@@ -157,12 +163,12 @@ typedef struct Workspace {
     JetSums *jet_sums; /* (jet_chunk_count) */
     const JetKernels *jet_kernels;
     int jet_chunk_count;
-    double *jet_area;        /* area of the facets of each row while looking (jet_row_count) */
-    ReferenceWork reference; /* groups with the constants that hold now */
-    double *reference_jump; /* energy that a change of the reference brings in this cycle (chunk_count); NULL without */
-    const Curve *curves;    /* the model's, or live_curves if the model has functions */
-    Curve *live_curves;     /* the model's with the functions' values */
-    double *function_value; /* (airbag_count x function_count) */
+    double *jet_area;              /* area of the facets of each row while looking (jet_row_count) */
+    ReferenceWork reference;       /* groups with the constants that hold now */
+    ReferenceJump *reference_jump; /* (chunk_count) written by step_reference_chunk */
+    const Curve *curves;           /* the model's, or live_curves if the model has functions */
+    Curve *live_curves;            /* the model's with the functions' values */
+    double *function_value;        /* (airbag_count x function_count) */
 } Workspace;
 
 /* Loops over nodes [first, end) of the lean range, one table per instruction set. */
@@ -215,6 +221,8 @@ void step_jets_count(Workspace *w, int thread, Team *team); /* all threads: powe
 void step_jets_sum(Workspace *w);                           /* thread 0: the jets' forces */
 void step_jets_react(Workspace *w, NodeSums *t);            /* thread 0: reactions onto w->force */
 void step_jets_count_reaction(Workspace *w, NodeSums *t);   /* thread 0: power after the step */
+/* Does the reference of a group change at t_n? Then its old stress leaves the rows alone. */
+bool step_reference_changes(const Workspace *w, int number);
 /* All threads: one chunk of a group with a reference geometry, after the kernel: step, birth, return of tension. */
 void step_reference_chunk(Workspace *w, int number, int chunk, const KernelInput *input, ChunkSums *sums);
 double step_reference_advance(

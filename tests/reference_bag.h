@@ -62,7 +62,8 @@ typedef struct BagSetup {
     Fold *fold;         /* NULL: flat */
     const char *option; /* of the reference geometry; NULL: none */
     double birth, end;
-    double push; /* pressure in the first 20 ms; then it rises to 5000 */
+    double push;  /* pressure in the first 20 ms; then it rises to 5000 */
+    double limit; /* > 0: of the step */
 } BagSetup;
 
 /* A square cushion of two panels, run to rest. */
@@ -91,6 +92,8 @@ static inline void make_bag(Scene *scene, const BagSetup *setup)
                       (const double[]){0, setup->push, 0.02, setup->push, 0.04, 300, 0.1, 400, 0.2, 5000, 1, 5000});
     scene_print(deck, "*AIRBAG_LOAD_CURVE\n1,1\n0,1\n");
     scene_write_damping(deck, 0, 150);
+    if (setup->limit > 0)
+        scene_print(deck, "*CONTROL_TIMESTEP\n,.9,,,,9\n*DEFINE_CURVE\n9\n0,%g\n1,%g\n", setup->limit, setup->limit);
     if (setup->option) write_reference(deck, mesh, setup->option, setup->birth, mesh->x);
     for (int i = 0; setup->fold && i < mesh->node_count; i++) setup->fold(mesh->x + 3 * i);
     scene_end(deck, mesh);

@@ -9,8 +9,8 @@ static void a_hundredth_reaches_the_reference_shape(void **state)
     enum { CELLS = 6 };
     for (int form = 0; form <= 2; form += 2) {
         BagResult flat = run_bag(&(BagSetup){.form = form, .n = CELLS, .end = 0.3, .push = 300});
-        BagResult now = run_bag(&(BagSetup){form, CELLS, shrink_to_hundredth, "", 0, 0.3, 5e4});
-        BagResult rdt = run_bag(&(BagSetup){form, CELLS, shrink_to_hundredth, "_RDT", 0, 0.3, 5e4});
+        BagResult now = run_bag(&(BagSetup){form, CELLS, shrink_to_hundredth, "", 0, 0.3, 5e4, 0});
+        BagResult rdt = run_bag(&(BagSetup){form, CELLS, shrink_to_hundredth, "_RDT", 0, 0.3, 5e4, 0});
         verify_close("start step", now.start_step, 0.01 * flat.start_step, 1e-6);
         verify_close("volume", now.volume, flat.volume, 0.005);
         verify_close("height", now.height, flat.height, 0.005);
