@@ -244,6 +244,10 @@ void scene_landing_pad(Scene *scene, int n);
 void scene_prestressed_cushion(Scene *scene, int n);
 void scene_sewn_bag(Scene *scene, int n);
 
+/* A cushion of n x n squares a side (n = 0: 24), at its static equilibrium, on the floor; a rigid sphere, or a box of a
+ * head's size, drops on it (part 3). The bag vents when it is pressed. */
+void scene_impactor(Scene *scene, int n, bool box);
+
 /* A square bag of 4 n^2 triangles (n a multiple of 4; 0: 72) folded in eight layers, gap apart (0: their thickness),
  * that unfolds against itself. */
 void scene_folded_bag(Scene *scene, int n, double gap);
