@@ -24,7 +24,8 @@ static int list_create(ContactList *list, int owners)
     list->passages = memory_alloc((size_t)list->chunk_count + 1, sizeof *list->passages);
     list->memory = memory_alloc((size_t)owners * CONTACT_SLOTS + 1, sizeof *list->memory);
     list->depth = memory_alloc((size_t)owners + 1, sizeof *list->depth);
-    return list->sums && list->passages && list->memory && list->depth ? 0 : -1;
+    list->idle = memory_alloc((size_t)list->chunk_count + 1, sizeof *list->idle);
+    return list->sums && list->passages && list->memory && list->depth && list->idle ? 0 : -1;
 }
 
 static void pairs_free(ContactPairs *pairs)
@@ -41,6 +42,7 @@ static void list_free(ContactList *list)
     pairs_free(&list->before);
     memory_free(list->memory);
     memory_free(list->depth);
+    memory_free(list->idle);
     memory_free(list->forces);
     memory_free(list->sums);
     memory_free(list->passages);
@@ -67,6 +69,7 @@ void contact_free(ContactLoop *loop)
         memory_free(loop->parts[k].found.item);
     }
     memory_free(loop->parts);
+    memory_free(loop->written);
     memory_free(loop->room);
     memory_free(loop->around);
     memory_free(loop->runs);
@@ -194,10 +197,14 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     loop->parts = memory_alloc(BILLOW_MAX_THREADS, sizeof *loop->parts);
     loop->motion_count = (model->moving_count + CONTACT_NODE_CHUNK - 1) / CONTACT_NODE_CHUNK;
     loop->motions = memory_alloc((size_t)loop->motion_count + 1, sizeof *loop->motions);
+    loop->written = memory_alloc((size_t)model->node_count / CONTACT_NODE_CHUNK + 1, 1);
     loop->room = memory_alloc(6 * (size_t)model->node_count, sizeof(double));
     loop->around = memory_alloc((size_t)model->node_count, sizeof(double));
     loop->resultant = memory_alloc(3 * (size_t)model->contact_count, sizeof(double));
-    int status = loop->runs && loop->parts && loop->motions && loop->resultant && loop->room && loop->around ? 0 : -1;
+    int status =
+        loop->runs && loop->parts && loop->motions && loop->written && loop->resultant && loop->room && loop->around
+            ? 0
+            : -1;
     for (int i = 0; !status && i < model->contact_count; i++) status = run_create(loop, i);
     if (!status && state->contact->started) {
         loop->restored = true;
@@ -207,6 +214,7 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
         loop->search_due = has_moved(model, state);
         for (int n = 0; n < model->node_count; n++)
             loop->corner[CONTACT_ROW * (ptrdiff_t)n + 3] = state->contact_load[n];
+        memset(loop->written, 1, (size_t)model->node_count / CONTACT_NODE_CHUNK + 1);
     } else {
         loop->search_due = true;
     }
@@ -337,17 +345,25 @@ static void gather_list(ContactLoop *loop, const ContactList *list, int32_t firs
                 if (node < first || node >= end) continue;
                 for (int a = 0; a < 3; a++) to[a] += weight * force->force[a];
                 to[3] += fabs(weight) * force->load;
+                loop->written[node / CONTACT_NODE_CHUNK] = 1;
             }
     }
 }
 
 void contact_gather(ContactLoop *loop, int thread, int threads)
 {
-    int64_t nodes = loop->model->node_count;
-    int32_t first = (int32_t)(nodes * thread / threads), end = (int32_t)(nodes * (thread + 1) / threads);
+    int64_t nodes = loop->model->node_count, chunks = (nodes + CONTACT_NODE_CHUNK - 1) / CONTACT_NODE_CHUNK;
+    int32_t low = (int32_t)(chunks * thread / threads), high = (int32_t)(chunks * (thread + 1) / threads);
+    int32_t first = low * CONTACT_NODE_CHUNK;
+    int32_t end = high * CONTACT_NODE_CHUNK < nodes ? high * CONTACT_NODE_CHUNK : (int32_t)nodes;
     for (int i = 0; thread == 0 && i < loop->model->contact_count; i++)
         if (loop->runs[i].alive) contact_pass_on(loop, &loop->runs[i]);
-    memset(loop->corner + CONTACT_ROW * (ptrdiff_t)first, 0, CONTACT_ROW * (size_t)(end - first) * sizeof(double));
+    for (int32_t c = low; c < high; c++) {
+        int32_t from = c * CONTACT_NODE_CHUNK, to = from + CONTACT_NODE_CHUNK < end ? from + CONTACT_NODE_CHUNK : end;
+        if (!loop->written[c]) continue;
+        memset(loop->corner + CONTACT_ROW * (ptrdiff_t)from, 0, CONTACT_ROW * (size_t)(to - from) * sizeof(double));
+        loop->written[c] = 0;
+    }
     for (int i = 0; i < loop->model->contact_count; i++) {
         if (!loop->runs[i].alive) continue;
         gather_list(loop, &loop->runs[i].faces, first, end);
@@ -439,6 +455,7 @@ void contact_sum(ContactLoop *loop)
         moved = m->moved > moved ? m->moved : moved;
     }
     loop->fastest = sqrt(fastest);
+    loop->motion += 2.0 * loop->fastest * loop->step.next;
     for (int i = 0; i < loop->model->contact_count; i++) move_groups(loop, &loop->runs[i], loop->step.next);
     loop->search_due = loop->search_due || moved > half * half;
 }

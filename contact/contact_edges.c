@@ -92,14 +92,14 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     int f = pairs->other[pair];
     const int32_t *a = c->edge + 2 * (ptrdiff_t)e, *b = c->edge + 2 * (ptrdiff_t)f;
     const double *p[4];
-    double thickness = run->thinness * (c->edge_radius[e] + c->edge_radius[f]), bound;
+    double full = c->edge_radius[e] + c->edge_radius[f], thickness = run->thinness * full, bound;
     double reach = thickness + edge_step(loop, run, e, f) + (m->side ? law->deepest : 0.0);
     Crossing cross;
     edge_ends(c, loop->state->x, e, f, p);
     if (!cross_edges(&cross, p, reach, m->side ? SLACK : 0.0, &bound)) {
         if (m->side) note_ended(passages, e, f, m);
         contact_forget(&run->edges, e, pair);
-        pairs->wake[pair] = edge_way(run, e, f) + bound - thickness;
+        pairs->wake[pair] = edge_way(run, e, f) + bound - full;
         return;
     }
     ContactTouch t = {.node = {a[0], a[1], b[0], b[1]},
@@ -156,7 +156,7 @@ static bool leave_to(ContactLoop *loop, ContactRun *run, const ContactPassage *e
         m.friction[k] *= sign;
     }
     contact_keep(&run->edges, swapped ? f : e, pair, &m);
-    pairs->wake[pair] = 0.0;
+    pairs->wake[pair] = run->edges.idle[(swapped ? f : e) / CONTACT_CHUNK] = 0.0;
     return true;
 }
 
@@ -196,10 +196,14 @@ void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     ContactPassages *passages = &list->passages[chunk];
     *sums = (ContactSums){0};
     passages->count = 0;
+    if (list->idle[chunk] > loop->motion + 2.0 * loop->fastest * loop->step.longer) return;
+    bool awake = false;
     for (int e = first; e < end; e++)
         for (int32_t pair = list->pairs.start[e]; pair < list->pairs.start[e + 1]; pair++) {
             int f = list->pairs.other[pair];
             if (list->pairs.wake[pair] > edge_way(run, e, f) + edge_step(loop, run, e, f)) continue;
+            awake = true;
             meet_pair(loop, run, law, e, pair, sums, list->forces + list->pairs.start[first], passages);
         }
+    if (!awake) list->idle[chunk] = contact_rest(list, first, end, loop->motion, run->lines.way, run->lines.way);
 }

@@ -132,7 +132,7 @@ static bool take_side(const ContactLaw *law, const ContactInterface *c, const do
 }
 
 /* The candidates of one node that may touch in this step; the others sleep until they may. */
-static int look_around(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, NearFace *near)
+static int look_around(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, NearFace *near, bool *awake)
 {
     const ContactInterface *c = run->contact;
     const ContactPairs *pairs = &run->faces.pairs;
@@ -145,8 +145,9 @@ static int look_around(ContactLoop *loop, ContactRun *run, const ContactLaw *law
         double way = own_way + run->triangles.way[t / CONTACT_GROUP];
         double step = (own_speed + run->triangles.speed[t / CONTACT_GROUP]) * loop->step.longer + deep;
         if (pairs->wake[p] > way + step) continue;
+        *awake = true;
         NearFace *f = &near[count];
-        double thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[t]), reach = thickness + step, bound;
+        double thickness = c->node_radius[i] + c->triangle_radius[t], reach = run->thinness * thickness + step, bound;
         const double *plane = run->plane + 4 * (ptrdiff_t)t;
         double height = fabs(plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] - plane[3]);
         if (pairs->slot[p]) {
@@ -208,19 +209,21 @@ static void meet_face(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     for (int a = 0; a < 3; a++) sums->force[a] += sign * out->force[a];
 }
 
-/* One node: all its candidates that are awake. */
-static void meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, ContactSums *sums,
+/* One node: all its candidates that are awake; false if none is. */
+static bool meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, ContactSums *sums,
                       ContactForce *forces)
 {
     unsigned char *slot = run->faces.pairs.slot;
     NearFace near[MOST_NEAR];
-    int count = look_around(loop, run, law, i, near);
+    bool awake = false;
+    int count = look_around(loop, run, law, i, near, &awake);
     run->faces.depth[i] = 0.0;
-    if (count == 0) return;
+    if (count == 0) return awake;
     keep_nearest(near, count);
     for (int k = 0; k < count; k++)
         if (near[k].kept && slot[near[k].pair] == 0) inherit(slot, near, count, k);
     for (int k = 0; k < count; k++) meet_face(loop, run, law, i, &near[k], sums, forces);
+    return true;
 }
 
 void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int chunk)
@@ -230,5 +233,9 @@ void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *la
         end = first + CONTACT_CHUNK < list->owner_count ? first + CONTACT_CHUNK : list->owner_count;
     ContactSums *sums = &list->sums[chunk];
     *sums = (ContactSums){0};
-    for (int i = first; i < end; i++) meet_node(loop, run, law, i, sums, list->forces + list->pairs.start[first]);
+    if (list->idle[chunk] > loop->motion + 2.0 * loop->fastest * loop->step.longer) return;
+    bool awake = false;
+    for (int i = first; i < end; i++)
+        awake |= meet_node(loop, run, law, i, sums, list->forces + list->pairs.start[first]);
+    if (!awake) list->idle[chunk] = contact_rest(list, first, end, loop->motion, run->nodes.way, run->triangles.way);
 }

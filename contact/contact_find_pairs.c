@@ -65,6 +65,7 @@ static int pairs_end(ContactList *list)
         return -1;
     memset(pairs->wake, 0, pairs->count * sizeof *pairs->wake);
     memset(pairs->slot, 0, pairs->count * sizeof *pairs->slot);
+    memset(list->idle, 0, (size_t)list->chunk_count * sizeof *list->idle);
     for (int i = 0; before->start && i < list->owner_count; i++) {
         int32_t n = pairs->start[i], end = pairs->start[i + 1];
         for (int32_t o = before->start[i]; o < before->start[i + 1]; o++) {

@@ -2,6 +2,8 @@
 #ifndef BILLOW_CONTACT_LOOP_H
 #define BILLOW_CONTACT_LOOP_H
 
+#include <math.h>
+
 #include "contact/contact_grid.h"
 #include "contact/contact_motion.h"
 #include "elements/kernels.h"
@@ -66,6 +68,7 @@ typedef struct ContactList {
     ContactForce *forces;       /* of chunk c from start[c CONTACT_CHUNK] on (count) */
     size_t force_capacity;
     ContactSums *sums;         /* (chunk_count) */
+    double *idle;              /* ContactLoop.motion from which on a pair of the chunk may touch (chunk_count) [L] */
     ContactPassages *passages; /* of edges (chunk_count) */
 } ContactList;
 
@@ -94,6 +97,21 @@ static inline void contact_keep(ContactList *list, int owner, int32_t pair, cons
         list->pairs.slot[pair] = (unsigned char)(k + 1);
         return;
     }
+}
+
+/* Lets the owners [first, end) of a chunk without a pair that is awake rest until one of theirs may be; ways of the
+ * groups of owners and others. */
+static inline double contact_rest(const ContactList *list, int first, int end, double motion, const double *own_way,
+                                  const double *other_way)
+{
+    const ContactPairs *pairs = &list->pairs;
+    double least = INFINITY;
+    for (int i = first; i < end; i++)
+        for (int32_t p = pairs->start[i]; p < pairs->start[i + 1]; p++) {
+            double left = pairs->wake[p] - own_way[i / CONTACT_GROUP] - other_way[pairs->other[p] / CONTACT_GROUP];
+            least = left < least ? left : least;
+        }
+    return motion + least;
 }
 
 /* One interface in the loop. */
@@ -133,7 +151,9 @@ typedef struct ContactLoop {
     double *corner;         /* rows with contact forces x, y, z and load of each node (node_count x CONTACT_ROW) */
     ContactMotion *motions; /* (motion_count) */
     int motion_count;
-    double fastest; /* largest speed now */
+    unsigned char *written; /* chunks of nodes whose rows of corner are not zero */
+    double fastest;         /* largest speed now */
+    double motion; /* twice the sum of the largest speed times the step: no two nodes came nearer by more [L] */
     double power, power_after;
     bool search_due, pending;
     ContactStep step;

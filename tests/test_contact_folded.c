@@ -9,8 +9,9 @@
 #include <math.h>
 
 #include "contact/contact_check.h"
+#include "contact/mesh_crossing.h"
 
-enum { CELLS = 72 }; /* 20,736 elements */
+enum { CELLS = 72, COARSE_CELLS = 40 }; /* 20,736 and 6,400 elements */
 
 static const double unfolding = 3e-3; /* the layers part, at up to 0.6 of a thickness per step */
 
@@ -44,8 +45,27 @@ static void unfolds(void **state)
     verify_free(&run);
 }
 
+/* A coarser bag deploys to its full size: in the shock wrinkles may cross, at the end no shell goes through another. */
+static void deploys(void **state)
+{
+    (void)state;
+    Scene scene = {0};
+    VerifyRun run;
+    MeshCrossings crossings;
+    scene_folded_bag(&scene, COARSE_CELLS, 0);
+    verify_scene(&run, &scene, &(VerifyOptions){.every = 50, .stop_time = 0.020, .threads = 2});
+    report(&run);
+    const Energies *e = run.state.energy;
+    verify_between("least energy ratio", e->ratio_min, 0.99, 1.01);
+    verify_between("largest energy ratio", e->ratio_max, 0.99, 1.01);
+    assert_int_equal(
+        mesh_find_crossings(run.model.element_count, run.model.element_node, run.internal_x, NULL, &crossings), 0);
+    assert_int_equal(crossings.count, 0);
+    verify_free(&run);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(unfolds)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(unfolds), cmocka_unit_test(deploys)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
