@@ -100,19 +100,16 @@ static void fill_speeds(ContactLoop *loop)
     for (int i = 0; i < m->contact_count; i++) move_groups(loop, &loop->runs[i], 0.0);
 }
 
-/* Has a node moved by half the skin since the last search? */
+/* Can two nodes have come nearer by the skin since the last search? */
 static bool has_moved(const Model *m, const State *state)
 {
-    double half = 0.5 * state->contact->skin;
-    for (int n = 0; n < m->moving_count; n++) {
-        double square = 0.0;
+    ContactDrift drift = {0};
+    for (int n = 0; n < m->moving_count; n++)
         for (int k = 0; k < 3; k++) {
             double way = state->x[3 * (ptrdiff_t)n + k] - state->contact_searched[3 * (ptrdiff_t)n + k];
-            square += way * way;
+            contact_drift_add(&drift, k, way, way);
         }
-        if (square > half * half) return true;
-    }
-    return false;
+    return contact_drift_exceeds(&drift, state->contact->skin);
 }
 
 /* Memories of the State go to their pairs after the first search. */
@@ -395,16 +392,15 @@ void contact_follow(ContactLoop *loop, int thread, int threads, double pending)
                                                                             : loop->model->moving_count;
         for (int n = c * CONTACT_NODE_CHUNK; n < last; n++) {
             const double *vn = v + 3 * (ptrdiff_t)n, *f = loop->corner + CONTACT_ROW * (ptrdiff_t)n;
-            double speed = 0.0, way = 0.0, power = 0.0;
+            double speed = 0.0, power = 0.0;
             for (int k = 0; k < 3; k++) {
                 double d = x[3 * (ptrdiff_t)n + k] + pending * vn[k] - from[3 * (ptrdiff_t)n + k];
                 speed += vn[k] * vn[k];
-                way += d * d;
+                contact_drift_add(&sum.drift, k, d, d);
                 power += f[k] * vn[k];
             }
             sum.power += power;
             sum.fastest = speed > sum.fastest ? speed : sum.fastest;
-            sum.moved = way > sum.moved ? way : sum.moved;
         }
         loop->motions[c] = sum;
     }
@@ -437,7 +433,8 @@ static void sum_list(ContactLoop *loop, ContactRun *run, const ContactList *list
 
 void contact_sum(ContactLoop *loop)
 {
-    double fastest = 0.0, moved = 0.0, half = 0.5 * loop->state->contact->skin;
+    double fastest = 0.0;
+    ContactDrift drift = {0};
     if (!loop->pending) return;
     loop->pending = false;
     loop->power = loop->power_after = 0.0;
@@ -452,12 +449,12 @@ void contact_sum(ContactLoop *loop)
         const ContactMotion *m = &loop->motions[c];
         loop->power_after += m->power;
         fastest = m->fastest > fastest ? m->fastest : fastest;
-        moved = m->moved > moved ? m->moved : moved;
+        for (int k = 0; k < 3; k++) contact_drift_add(&drift, k, m->drift.low[k], m->drift.high[k]);
     }
     loop->fastest = sqrt(fastest);
     loop->motion += 2.0 * loop->fastest * loop->step.next;
     for (int i = 0; i < loop->model->contact_count; i++) move_groups(loop, &loop->runs[i], loop->step.next);
-    loop->search_due = loop->search_due || moved > half * half;
+    loop->search_due = loop->search_due || contact_drift_exceeds(&drift, loop->state->contact->skin);
 }
 
 static void store_list(const ContactList *list, int base, ContactMemory *to, int capacity, int *count)

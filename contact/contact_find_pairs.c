@@ -1,4 +1,5 @@
-/* Broad phase: which nodes may meet which triangles and which edges which before anything has moved half the skin. */
+/* Broad phase: which nodes may meet which triangles and which edges which before two nodes can have come nearer by the
+ * skin. */
 #include <math.h>
 #include <string.h>
 

@@ -2,6 +2,7 @@
 #ifndef BILLOW_CONTACT_MOTION_H
 #define BILLOW_CONTACT_MOTION_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "solver/model.h"
@@ -11,11 +12,29 @@ enum {
     CONTACT_NODE_CHUNK = 64, /* nodes of one fixed partial sum */
 };
 
+/* Box around displacements since the last search; zero is in it. Two nodes came nearer by no more than its diagonal. */
+typedef struct ContactDrift {
+    double low[3], high[3];
+} ContactDrift;
+
+static inline void contact_drift_add(ContactDrift *drift, int axis, double low, double high)
+{
+    drift->low[axis] = low < drift->low[axis] ? low : drift->low[axis];
+    drift->high[axis] = high > drift->high[axis] ? high : drift->high[axis];
+}
+
+static inline bool contact_drift_exceeds(const ContactDrift *drift, double skin)
+{
+    double square = 0.0;
+    for (int k = 0; k < 3; k++) square += (drift->high[k] - drift->low[k]) * (drift->high[k] - drift->low[k]);
+    return square > skin * skin;
+}
+
 /* Sums over one chunk of nodes after the step. */
 typedef struct ContactMotion {
     double power;   /* of the contact forces on the velocities at n + 1/2 */
     double fastest; /* largest v.v */
-    double moved;   /* largest squared distance from the last search */
+    ContactDrift drift;
 } ContactMotion;
 
 /* Item k is in group k / CONTACT_GROUP. */
