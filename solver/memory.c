@@ -12,7 +12,8 @@
 
 enum {
     BLOCK_ALIGNMENT = 64,
-    HUGE_PAGE = 1 << 21 /* blocks of this size and more are aligned to it */
+    HUGE_PAGE = 1 << 21,
+    LEAST_LARGE = 1 << 19 /* blocks of this size and more get huge pages of their own */
 };
 
 /* Sits in the 64 bytes before the block. */
@@ -50,13 +51,14 @@ static void *allocate_block(size_t count, size_t size, size_t *bytes)
     if (failure_is_due()) return NULL;
     *bytes = count * size;
     void *raw = NULL;
-    const bool large = *bytes >= HUGE_PAGE;
-    if (posix_memalign(&raw, large ? HUGE_PAGE : BLOCK_ALIGNMENT, BLOCK_ALIGNMENT + *bytes) != 0) return NULL;
+    const bool large = *bytes >= LEAST_LARGE;
+    size_t room = BLOCK_ALIGNMENT + *bytes;
+    if (large) room = (room + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
+    if (posix_memalign(&raw, large ? HUGE_PAGE : BLOCK_ALIGNMENT, room) != 0) return NULL;
 #ifdef MADV_HUGEPAGE
-    /* the loop walks through all of a model in every cycle: with small pages address
-     * translation costs large quads a tenth of it. A
-     * system that has no huge pages to give does without. */
-    if (large) (void)madvise(raw, BLOCK_ALIGNMENT + *bytes, MADV_HUGEPAGE);
+    /* the loop walks through the whole model in every cycle: scattered small pages cost it a tenth and more, now and
+     * then. A system that has no huge pages to give does without. */
+    if (large) (void)madvise(raw, room, MADV_HUGEPAGE);
 #endif
     void *block = (unsigned char *)raw + BLOCK_ALIGNMENT;
     block_header(block)->bytes = *bytes;
