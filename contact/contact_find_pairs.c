@@ -5,81 +5,13 @@
 
 #include "contact/contact_grid.h"
 #include "contact/contact_loop.h"
+#include "contact/contact_pairs.h"
 #include "contact/contact_sides.h"
 #include "solver/memory.h"
 #include "solver/vector3.h"
 
 /* Edges whose triangles are turned by less than this (1.8 degrees) are left to the nodes. */
 #define SHARP_COSINE 0.9995
-
-/* Begins a new list in the room of the one before the last. */
-static int pairs_begin(ContactList *list)
-{
-    ContactPairs last = list->pairs;
-    list->pairs = list->before;
-    list->before = last;
-    list->pairs.count = 0;
-    return memory_reserve((void **)&list->pairs.start, &list->pairs.start_capacity, (size_t)list->owner_count + 1,
-                          sizeof *list->pairs.start);
-}
-
-static int part_add(ContactPart *part, int32_t other)
-{
-    if (memory_reserve((void **)&part->other, &part->other_capacity, part->count + 1, sizeof *part->other)) return -1;
-    part->other[part->count++] = other;
-    return 0;
-}
-
-/* First owner of a thread. */
-static int first_of(int count, int thread, int threads)
-{
-    return (int)((int64_t)count * thread / threads);
-}
-
-/* Puts what the threads found behind each other. */
-static int pairs_join(ContactLoop *loop, ContactList *list, int threads)
-{
-    ContactPairs *pairs = &list->pairs;
-    for (int k = 0; k < threads; k++) {
-        const ContactPart *part = &loop->parts[k];
-        if (part->failed || memory_reserve((void **)&pairs->other, &pairs->other_capacity, pairs->count + part->count,
-                                           sizeof *pairs->other))
-            return -1;
-        for (int i = first_of(list->owner_count, k, threads); i < first_of(list->owner_count, k + 1, threads); i++)
-            pairs->start[i] += (int32_t)pairs->count;
-        if (part->count > 0) memcpy(pairs->other + pairs->count, part->other, part->count * sizeof *part->other);
-        pairs->count += part->count;
-    }
-    return 0;
-}
-
-/* Memories move to the new places of their pairs; both lists ascend. */
-static int pairs_end(ContactList *list)
-{
-    ContactPairs *pairs = &list->pairs;
-    const ContactPairs *before = &list->before;
-    pairs->start[list->owner_count] = (int32_t)pairs->count;
-    size_t room = pairs->count + 1;
-    if (memory_reserve((void **)&pairs->wake, &pairs->wake_capacity, room, sizeof *pairs->wake) ||
-        memory_reserve((void **)&pairs->slot, &pairs->slot_capacity, room, sizeof *pairs->slot) ||
-        memory_reserve((void **)&list->forces, &list->force_capacity, room, sizeof *list->forces))
-        return -1;
-    memset(pairs->wake, 0, pairs->count * sizeof *pairs->wake);
-    memset(pairs->slot, 0, pairs->count * sizeof *pairs->slot);
-    memset(list->idle, 0, (size_t)list->chunk_count * sizeof *list->idle);
-    for (int i = 0; before->start && i < list->owner_count; i++) {
-        int32_t n = pairs->start[i], end = pairs->start[i + 1];
-        for (int32_t o = before->start[i]; o < before->start[i + 1]; o++) {
-            if (before->slot[o] == 0) continue;
-            while (n < end && pairs->other[n] < before->other[o]) n++;
-            if (n < end && pairs->other[n] == before->other[o])
-                pairs->slot[n] = before->slot[o];
-            else /* no candidate any more */
-                list->memory[(ptrdiff_t)i * CONTACT_SLOTS + before->slot[o] - 1] = (ContactMemory){0};
-        }
-    }
-    return 0;
-}
 
 void contact_fill_planes(ContactRun *run, const double *x, int first, int end, bool all)
 {
@@ -212,7 +144,7 @@ static int choose_faces(const ContactLoop *loop, const ContactRun *run, ContactP
     }
     contact_sort(near, kept);
     for (int k = 0; k < kept; k++)
-        if (part_add(part, near[k])) return -1;
+        if (contact_part_add(part, near[k])) return -1;
     return 0;
 }
 
@@ -222,7 +154,8 @@ static void box_faces(ContactLoop *loop, ContactRun *run, int thread, int thread
     const ContactInterface *c = run->contact;
     const double *x = loop->state->contact_searched;
     double widest = 0.0, skin = loop->state->contact->skin;
-    int first = first_of(c->triangle_count, thread, threads), end = first_of(c->triangle_count, thread + 1, threads);
+    int first = contact_first_of(c->triangle_count, thread, threads),
+        end = contact_first_of(c->triangle_count, thread + 1, threads);
     for (int i = 0; i < c->node_count; i++) widest = c->node_radius[i] > widest ? c->node_radius[i] : widest;
     for (int t = first; t < end; t++) {
         ContactBox *box = &loop->box[t];
@@ -239,7 +172,8 @@ static void find_faces(ContactLoop *loop, ContactRun *run, int thread, int threa
     ContactPart *part = &loop->parts[thread];
     part->count = 0;
     part->failed = false;
-    for (int i = first_of(c->node_count, thread, threads); i < first_of(c->node_count, thread + 1, threads); i++) {
+    for (int i = contact_first_of(c->node_count, thread, threads);
+         i < contact_first_of(c->node_count, thread + 1, threads); i++) {
         ContactBox point;
         run->faces.pairs.start[i] = (int32_t)part->count;
         contact_box_start(&point, loop->state->contact_searched + 3 * (ptrdiff_t)c->node[i]);
@@ -328,7 +262,8 @@ static void find_edges(ContactLoop *loop, ContactRun *run, int thread, int threa
     ContactPart *part = &loop->parts[thread];
     part->count = 0;
     part->failed = false;
-    for (int e = first_of(c->edge_count, thread, threads); e < first_of(c->edge_count, thread + 1, threads); e++) {
+    for (int e = contact_first_of(c->edge_count, thread, threads);
+         e < contact_first_of(c->edge_count, thread + 1, threads); e++) {
         int kept = 0, found = 0;
         run->edges.pairs.start[e] = (int32_t)part->count;
         if (loop->box[e].low[0] > loop->box[e].high[0]) continue;
@@ -339,7 +274,7 @@ static void find_edges(ContactLoop *loop, ContactRun *run, int thread, int threa
                 near[kept++] = near[k];
         contact_sort(near, kept);
         part->failed = found < 0;
-        for (int k = 0; k < kept && !part->failed; k++) part->failed = part_add(part, near[k]);
+        for (int k = 0; k < kept && !part->failed; k++) part->failed = contact_part_add(part, near[k]);
         if (part->failed) return;
     }
 }
@@ -354,12 +289,12 @@ static int begin_faces(ContactLoop *loop, ContactRun *run)
     const ContactInterface *c = run->contact;
     if (!loop->restored) mark_deep(run, loop->state->contact_sharp + c->first_deep);
     mark_calm(run);
-    return contact_grid_fill(&loop->grid, loop->box, c->triangle_count) || pairs_begin(&run->faces);
+    return contact_grid_fill(&loop->grid, loop->box, c->triangle_count) || contact_pairs_begin(&run->faces);
 }
 
 static int end_faces(ContactLoop *loop, ContactRun *run, int threads)
 {
-    if (pairs_join(loop, &run->faces, threads) || pairs_end(&run->faces)) return -1;
+    if (contact_pairs_join(loop, &run->faces, threads) || contact_pairs_end(&run->faces)) return -1;
     mark_used(run);
     return 0;
 }
@@ -370,21 +305,12 @@ static int begin_edges(ContactLoop *loop, ContactRun *run)
     unsigned char *sharp = loop->state->contact_sharp + c->first_edge;
     if (!loop->restored) mark_sharp(run, sharp);
     box_edges(c, loop->state->contact_searched, loop->state->contact->skin, sharp, loop->box);
-    return contact_grid_fill(&loop->grid, loop->box, c->edge_count) || pairs_begin(&run->edges);
+    return contact_grid_fill(&loop->grid, loop->box, c->edge_count) || contact_pairs_begin(&run->edges);
 }
 
 static int end_edges(ContactLoop *loop, ContactRun *run, int threads)
 {
-    return pairs_join(loop, &run->edges, threads) || pairs_end(&run->edges);
-}
-
-/* Without memory: nothing meets until the run ends in this cycle. */
-static void forget_pairs(ContactList *list)
-{
-    list->pairs.count = 0;
-    memory_free(list->pairs.start);
-    list->pairs.start = NULL;
-    list->pairs.start_capacity = 0;
+    return contact_pairs_join(loop, &run->edges, threads) || contact_pairs_end(&run->edges);
 }
 
 /* One contact; all threads of the team, which part the work between barriers. */
@@ -420,7 +346,7 @@ void contact_find_pairs(ContactLoop *loop, int thread, Team *team)
     wait_for(team);
     for (int i = 0; thread == 0 && loop->out_of_memory && i < loop->model->contact_count; i++) {
         loop->runs[i].alive = false;
-        forget_pairs(&loop->runs[i].faces);
-        forget_pairs(&loop->runs[i].edges);
+        contact_pairs_forget(&loop->runs[i].faces);
+        contact_pairs_forget(&loop->runs[i].edges);
     }
 }

@@ -41,12 +41,11 @@ typedef struct ContactPassages {
 
 /* Sums over one chunk. */
 typedef struct ContactSums {
-    double force[3];   /* on side A [F] */
-    double power;      /* of the contact forces on the velocities at n - 1/2 [F L/T] */
-    int count;         /* entries of the chunk in forces */
-    int lost;          /* pairs that went deeper than the limit and were let go */
-    int fast;          /* pairs that met faster than one thickness in a step */
-    int32_t low, high; /* range of the nodes touched */
+    double force[3]; /* on side A [F] */
+    double power;    /* of the contact forces on the velocities at n - 1/2 [F L/T] */
+    int count;       /* entries of the chunk in forces */
+    int lost;        /* pairs that went deeper than the limit and were let go */
+    int fast;        /* pairs that met faster than one thickness in a step */
     int32_t fast_node, lost_node;
 } ContactSums;
 
@@ -122,9 +121,9 @@ typedef struct ContactRun {
     double *plane;       /* unit normal and offset of each triangle in candidate lists, at x_n (triangle_count x 4) */
     unsigned char *used; /* triangles in candidate lists (triangle_count) */
     unsigned char *calm; /* workspace of the search: triangles with three neighbours nearly in their plane */
-    bool alive;
-    double thinness; /* factor on the radii, of LCIDAB */
-    double *force;   /* on side A at t_n, in resultant [F] */
+    bool alive, asleep;  /* asleep: it is not alive and has forgotten */
+    double thinness;     /* factor on the radii, of LCIDAB */
+    double *force;       /* on side A at t_n, in resultant [F] */
 } ContactRun;
 
 /* Coefficients of a cycle. */
@@ -188,6 +187,12 @@ void contact_sum(ContactLoop *loop);   /* thread 0: partial sums of the two befo
 void contact_store(ContactLoop *loop); /* thread 0: memory and loads into the State */
 
 /* Inside. */
+/* All threads: new candidate lists at State.contact_searched. */
+void contact_search(ContactLoop *loop, int thread, Team *team);
+
+/* The groups of one contact have moved for a time at the speeds of loop->motions. */
+void contact_move_groups(const ContactLoop *loop, ContactRun *run, double time);
+
 /* Planes of triangles [first, end) at positions x; all: of unused ones too. */
 void contact_fill_planes(ContactRun *run, const double *x, int first, int end, bool all);
 

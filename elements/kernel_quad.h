@@ -93,9 +93,6 @@ ALWAYS_INLINE QuadProducts quad_products(int mode, const QuadPack *q)
     return of;
 }
 
-/* Natural coordinates of the points: xi = -+GAUSS, eta = -+GAUSS, in the order of the corners. */
-#define BILLOW_GAUSS 0.57735026918962576
-
 /* Metrics at the points g11 = x_xi.x_xi ... in natural directions, linear in the products; FORM 0 and 1 fold freely
  * about the diagonal n1-n3 (eq. E4a). The points are at +-GAUSS: their metrics are sums and differences of a few terms.
  */

@@ -8,6 +8,10 @@
 
 #include "solver/model.h"
 
+/* Natural coordinates of the points of a 2 x 2 quad, in the order of its corners: xi = -++- and eta = --++ times this.
+ */
+#define BILLOW_GAUSS 0.57735026918962576
+
 /* Kernel constants per lane, ElementGroup.geometry. The natural gradients M = d(natural)/dX (2 x 2, row: natural
  * direction, column: material axis) come per integration point, then the values below. Surface groups have only the
  * sign. */

@@ -59,7 +59,7 @@ static void natural_gradients(const ElementGroup *group, double corner[4][3], in
         return;
     }
     const bool one = group->kind == ELEMENT_QUAD_ONE;
-    const double gauss = one ? 0.0 : 0.57735026918962576;
+    const double gauss = one ? 0.0 : BILLOW_GAUSS;
     double xi = (p == 1 || p == 2) ? gauss : -gauss, eta = p >= 2 ? gauss : -gauss;
     for (int k = 0; k < 3; k++) {
         double h = 0.25 * ((corner[0][k] - corner[1][k]) + (corner[2][k] - corner[3][k]));

@@ -77,7 +77,7 @@ static void set_point(const Shape *shape, int number, Point *point)
         return;
     }
     bool full = shape->group->kind == ELEMENT_QUAD_FULL;
-    double gauss = full ? 0.57735026918962576 : 0.0, xi = number == 1 || number == 2 ? gauss : -gauss,
+    double gauss = full ? BILLOW_GAUSS : 0.0, xi = number == 1 || number == 2 ? gauss : -gauss,
            eta = number >= 2 ? gauss : -gauss;
     for (int a = 0; a < 4; a++) {
         double d1 = 0.25 * corner_xi[a] * (1.0 + corner_eta[a] * eta),

@@ -3,17 +3,15 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "solver/class_table.h"
+#include "solver/class_cards.h"
 #include "solver/memory.h"
-#include "solver/motion_input.h"
 
 static const char *const KEYWORD = "*LOAD_BODY";
 
-/* What acts on each part by itself, and what acts on all. */
+/* What the cards say, and the classes that come of it. */
 typedef struct Recipes {
-    BodyClass *of_part; /* (part count) */
-    int32_t *class_of_part;
-    BodyClass everywhere;
+    ClassCards cards;
+    int32_t *class_of_part; /* (part count) */
     ClassTable table;
 } Recipes;
 
@@ -25,121 +23,6 @@ typedef struct Shares {
     size_t class_count;
 } Shares;
 
-static bool report_full(const char *keyword, Source source, Diagnostics *diagnostics)
-{
-    diagnostics_add(diagnostics, SEVERITY_ERROR, source, keyword,
-                    "more than %d gravity or %d damping terms with different curves act on one part or node; combine "
-                    "their curves",
-                    BILLOW_GRAVITIES, BILLOW_DAMPINGS);
-    return false;
-}
-
-static int add_body_load(const MotionInput *input, const BodyLoadDefinition *card, BodyClass *everywhere,
-                         Diagnostics *diagnostics)
-{
-    static const char *const keywords[] = {"*LOAD_BODY_X", "*LOAD_BODY_Y", "*LOAD_BODY_Z"};
-    const char *keyword = keywords[card->axis];
-    double axes[9];
-    int id = card->lcid;
-    if (input->relaxation_phase && card->lciddr != 0) id = card->lciddr;
-    if (id == 0 && card->lciddr != 0 && !input->relaxed) {
-        diagnostics_add(diagnostics, SEVERITY_NOTE, card->source, keyword,
-                        "LCID = 0: the load acts in dynamic relaxation only, which this run has none of");
-        return 0;
-    }
-    if (id == 0 && card->lciddr != 0) return 0;
-    int curve = id == card->lciddr && id != card->lcid
-                    ? deck_index_curve(input->index, id, "LCIDDR", card->source, keyword, diagnostics)
-                    : motion_find_curve(input, id, "LCID", card->source, keyword, diagnostics);
-    if (motion_find_axes(input, card->cid, card->source, keyword, axes, diagnostics) || curve == -1) return -1;
-    bool fits = true;
-    for (int i = 0; i < 3 && curve >= 0; i++) /* a base acceleration: the nodes feel its opposite */
-        fits = body_class_add_gravity(everywhere, i, curve, -card->sf * axes[3 * card->axis + i]) && fits;
-    return fits || report_full(keyword, card->source, diagnostics) ? 0 : -1;
-}
-
-static int add_gravity(const MotionInput *input, const GravityPartDefinition *card, BodyClass *of_part,
-                       Diagnostics *diagnostics)
-{
-    const char *keyword = card->is_set ? "*LOAD_GRAVITY_PART_SET" : "*LOAD_GRAVITY_PART";
-    IndexList parts = {0};
-    int status = motion_find_parts(input, card->is_set, card->id, card->source, keyword, &parts, diagnostics);
-    int curve = -1; /* LC = 0: constant */
-    if (card->lc != 0) {
-        curve = motion_find_curve(input, card->lc, "LC", card->source, keyword, diagnostics);
-        if (curve == -1) status = -1;
-    }
-    if (card->dof < 1 || card->dof > 3) {
-        diagnostics_add(diagnostics, SEVERITY_ERROR, card->source, keyword, "DOF = %d is none of 1, 2, 3", card->dof);
-        status = -1;
-    }
-    if (card->stga != 0 || card->stgr != 0) {
-        diagnostics_add(diagnostics, SEVERITY_ERROR, card->source, keyword,
-                        "%s = %d: construction stages are not in billow; leave STGA and STGR blank",
-                        card->stga != 0 ? "STGA" : "STGR", card->stga != 0 ? card->stga : card->stgr);
-        status = -1;
-    }
-    for (size_t k = 0; k < parts.count && status == 0 && curve != -2; k++) {
-        if (!body_class_add_gravity(&of_part[parts.items[k]], card->dof - 1, curve, -card->accel)) {
-            report_full(keyword, card->source, diagnostics);
-            status = -1;
-        }
-    }
-    index_list_free(&parts);
-    return status;
-}
-
-static int add_damping(const MotionInput *input, const DampingDefinition *card, Recipes *recipes,
-                       Diagnostics *diagnostics)
-{
-    const char *keyword = card->is_global ? "*DAMPING_GLOBAL"
-                          : card->is_set  ? "*DAMPING_PART_MASS_SET"
-                                          : "*DAMPING_PART_MASS";
-    static const double all_one[6] = {1, 1, 1, 1, 1, 1};
-    bool none = true;
-    for (int i = 0; i < 6; i++) none = none && card->st[i] == 0;
-    const double *factor = none ? all_one : card->st;
-    int curve = -1;
-    double scale = card->sf;
-    if (card->lcid != 0 || !card->is_global) {
-        curve = motion_find_curve(input, card->lcid, "LCID", card->source, keyword, diagnostics);
-        if (curve < 0) return curve == -2 ? 0 : -1;
-        if (card->is_global) scale = 1; /* VALDMP counts without a curve only */
-    }
-    if (card->is_global) {
-        return body_class_add_damping(&recipes->everywhere, curve, scale, factor) ||
-                       report_full(keyword, card->source, diagnostics)
-                   ? 0
-                   : -1;
-    }
-    IndexList parts = {0};
-    int status = motion_find_parts(input, card->is_set, card->id, card->source, keyword, &parts, diagnostics);
-    for (size_t k = 0; k < parts.count && status == 0; k++) {
-        if (!body_class_add_damping(&recipes->of_part[parts.items[k]], curve, scale, factor)) {
-            report_full(keyword, card->source, diagnostics);
-            status = -1;
-        }
-    }
-    index_list_free(&parts);
-    return status;
-}
-
-static int read_cards(const MotionInput *input, Recipes *recipes, Diagnostics *diagnostics)
-{
-    const Definitions *d = input->index->definitions;
-    int status = 0;
-    for (size_t k = 0; k < d->body_loads.count; k++) {
-        if (add_body_load(input, &d->body_loads.items[k], &recipes->everywhere, diagnostics)) status = -1;
-    }
-    for (size_t k = 0; k < d->gravity_parts.count; k++) {
-        if (add_gravity(input, &d->gravity_parts.items[k], recipes->of_part, diagnostics)) status = -1;
-    }
-    for (size_t k = 0; k < d->dampings.count; k++) {
-        if (add_damping(input, &d->dampings.items[k], recipes, diagnostics)) status = -1;
-    }
-    return status;
-}
-
 /* The class of each part's inner nodes. */
 static int class_parts(const MotionInput *input, Recipes *recipes, Diagnostics *diagnostics)
 {
@@ -148,11 +31,11 @@ static int class_parts(const MotionInput *input, Recipes *recipes, Diagnostics *
     body_class_clear(&empty);
     if (class_table_find(&recipes->table, &empty) < 0) return motion_no_memory(KEYWORD, diagnostics);
     for (size_t p = 0; p < parts; p++) {
-        if (!body_class_add(&recipes->of_part[p], &recipes->everywhere, 1)) {
-            report_full(KEYWORD, input->index->definitions->parts.items[p].source, diagnostics);
+        if (!body_class_add(&recipes->cards.of_part[p], &recipes->cards.everywhere, 1)) {
+            class_report_full(KEYWORD, input->index->definitions->parts.items[p].source, diagnostics);
             return -1;
         }
-        recipes->class_of_part[p] = class_table_find(&recipes->table, &recipes->of_part[p]);
+        recipes->class_of_part[p] = class_table_find(&recipes->table, &recipes->cards.of_part[p]);
         if (recipes->class_of_part[p] < 0) return motion_no_memory(KEYWORD, diagnostics);
     }
     return 0;
@@ -271,7 +154,7 @@ static int class_nodes(const MotionInput *input, Motion *motion, Recipes *recipe
     for (int h = 0; h < motion->constraints.hanging_count; h++)
         motion->node_class[motion->constraints.hanging[h].node] = 0;
     if (fits) return 0;
-    report_full(KEYWORD, BILLOW_NO_SOURCE, diagnostics);
+    class_report_full(KEYWORD, BILLOW_NO_SOURCE, diagnostics);
     return -1;
 }
 
@@ -325,7 +208,7 @@ static int32_t mixed_body_class(const MotionInput *input, Recipes *recipes, cons
             if (sum > 0) weight += mass * row[c] / sum;
         }
         if (!(weight > 0)) continue;
-        const BodyClass *class = c < shares->class_count ? &recipes->table.items[c] : &recipes->everywhere;
+        const BodyClass *class = c < shares->class_count ? &recipes->table.items[c] : &recipes->cards.everywhere;
         if (!body_class_add(&mixed, class, weight / total)) *fits = false;
     }
     return class_table_find(&recipes->table, &mixed);
@@ -345,7 +228,7 @@ static int class_bodies(const MotionInput *input, Motion *motion, Recipes *recip
         body->body_class = found;
     }
     if (fits) return 0;
-    report_full(KEYWORD, BILLOW_NO_SOURCE, diagnostics);
+    class_report_full(KEYWORD, BILLOW_NO_SOURCE, diagnostics);
     return -1;
 }
 
@@ -373,18 +256,18 @@ int build_body_classes(const MotionInput *input, Motion *motion, Diagnostics *di
     size_t nodes = (size_t)motion->node_count, parts = input->index->definitions->parts.count;
     Recipes recipes = {0};
     Shares shares = {0};
-    body_class_clear(&recipes.everywhere);
-    recipes.of_part = memory_alloc(parts + 1, sizeof *recipes.of_part);
+    body_class_clear(&recipes.cards.everywhere);
+    recipes.cards.of_part = memory_alloc(parts + 1, sizeof *recipes.cards.of_part);
     recipes.class_of_part = memory_alloc(parts + 1, sizeof *recipes.class_of_part);
     shares.only = memory_alloc(nodes + 1, sizeof *shares.only);
     shares.row = memory_alloc(nodes + 1, sizeof *shares.row);
     motion->node_class = memory_alloc(nodes + 1, sizeof *motion->node_class);
     int status = 0;
-    if (!recipes.of_part || !recipes.class_of_part || !shares.only || !shares.row || !motion->node_class) {
+    if (!recipes.cards.of_part || !recipes.class_of_part || !shares.only || !shares.row || !motion->node_class) {
         status = motion_no_memory(KEYWORD, diagnostics);
     } else {
-        for (size_t p = 0; p < parts; p++) body_class_clear(&recipes.of_part[p]);
-        status = read_cards(input, &recipes, diagnostics);
+        for (size_t p = 0; p < parts; p++) body_class_clear(&recipes.cards.of_part[p]);
+        status = class_cards_read(input, &recipes.cards, diagnostics);
         if (status == 0) status = class_parts(input, &recipes, diagnostics);
         if (status == 0) status = class_nodes(input, motion, &recipes, &shares, diagnostics);
         if (status == 0) status = class_airbags(input, motion, &recipes, diagnostics);
@@ -393,7 +276,7 @@ int build_body_classes(const MotionInput *input, Motion *motion, Diagnostics *di
     motion->loads.classes = recipes.table.items;
     motion->loads.class_count = (int)recipes.table.count;
     class_table_close(&recipes.table);
-    memory_free(recipes.of_part);
+    memory_free(recipes.cards.of_part);
     memory_free(recipes.class_of_part);
     memory_free(shares.only);
     memory_free(shares.row);
