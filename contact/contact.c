@@ -146,9 +146,12 @@ void contact_forces(ContactLoop *loop, int thread, int threads)
     for (int i = 0; i < loop->model->contact_count; i++) {
         ContactRun *run = &loop->runs[i];
         if (!run->alive) {
-            if (thread == 0) sleep_list(&run->faces), sleep_list(&run->edges);
+            if (thread != 0 || run->asleep) continue;
+            sleep_list(&run->faces), sleep_list(&run->edges);
+            run->asleep = true;
             continue;
         }
+        if (thread == 0) run->asleep = false;
         ContactLaw law = law_of(loop, run);
         int chunks = run->faces.chunk_count, all = chunks + run->edges.chunk_count;
         /* chunks in turn: neighbouring ones are busy alike */
