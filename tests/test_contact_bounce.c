@@ -54,16 +54,14 @@ static double mean_speed(const VerifyRun *run, int first, int end, int axis)
 }
 
 /* A loose sheet flies onto a fixed plate and off again: elastic contact gives its speed back. */
-static void bounce(ScenePattern pattern, double vdc, double expected, double tolerance)
+static void bounce_with(ScenePattern pattern, const SceneContact *card, double expected, double tolerance)
 {
     Scene scene = {0};
     begin(&scene, 1e-3);
     int sheet = scene_add_sheet(&scene.mesh, 1, pattern, 8, 8, 0.08, 0.08, 0, 0, 1e-3);
     int plate = scene_add_sheet(&scene.mesh, 2, SCENE_QUADS, 3, 3, 0.12, 0.12, -0.02, -0.02, 0);
     scene_write_speed(&scene.deck, sheet, plate, 0, 0, -5);
-    scene_write_contact(
-        &scene.deck,
-        &(SceneContact){.keyword = "AUTOMATIC_NODES_TO_SURFACE", .a = 1, .b = 2, .a_type = 3, .b_type = 3, .vdc = vdc});
+    scene_write_contact(&scene.deck, card);
     scene_end(&scene.deck, &scene.mesh);
     VerifyRun run;
     verify_scene(&run, &scene, &(VerifyOptions){.every = 1});
@@ -73,6 +71,23 @@ static void bounce(ScenePattern pattern, double vdc, double expected, double tol
     verify_near("speed after over speed before", v / 5, expected, tolerance);
     check_end(&run, 1e-3);
     verify_free(&run);
+}
+
+#define NODES_ON_PLATE .keyword = "AUTOMATIC_NODES_TO_SURFACE", .a = 1, .b = 2, .a_type = 3, .b_type = 3
+
+static void bounce(ScenePattern pattern, double vdc, double expected, double tolerance)
+{
+    bounce_with(pattern, &(SceneContact){NODES_ON_PLATE, .vdc = vdc}, expected, tolerance);
+}
+
+/* The sheet comes within its thickness of the plate at 0.14 ms and is 4 mm behind it at the end if nothing stops it. */
+static void birth_and_death(void **state)
+{
+    (void)state;
+    bounce_with(SCENE_QUADS, &(SceneContact){NODES_ON_PLATE, .birth = 5e-5}, 1, 0.01);
+    bounce_with(SCENE_QUADS, &(SceneContact){NODES_ON_PLATE, .birth = 4e-4}, -1, 1e-12);
+    bounce_with(SCENE_QUADS, &(SceneContact){NODES_ON_PLATE, .death = 1e-4}, -1, 1e-12);
+    bounce_with(SCENE_QUADS, &(SceneContact){NODES_ON_PLATE, .death = 8e-4}, 1, 0.01);
 }
 
 static void sheet_on_plate(void **state)
@@ -176,7 +191,7 @@ static void friction(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sheet_on_plate), cmocka_unit_test(momentum_is_kept),
-                                       cmocka_unit_test(friction)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sheet_on_plate), cmocka_unit_test(birth_and_death),
+                                       cmocka_unit_test(momentum_is_kept), cmocka_unit_test(friction)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
