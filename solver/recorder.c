@@ -46,7 +46,7 @@ static void watch_fabric(Recorder *recorder, const Model *model, const State *st
     diagnostics_add(
         recorder->diagnostics, SEVERITY_WARNING, BILLOW_NO_SOURCE, NULL,
         "cycle %lld, time %.6g: the stress of the shells has given %.1f %% of the loads' energy more than it "
-        "received: fabric of FORM 0 or 1 with CSE = 1 wants DAMP = 0.05",
+        "received: fabric of FORM 0 or 1 with CSE = 1 can do that; DAMP = 0.05 or more makes it less, FORM = 2 cannot",
         (long long)state->clock->cycle, state->clock->time, -100.0 * energy->internal / energy->largest);
     log_write_messages(recorder->log);
 }

@@ -36,12 +36,12 @@ static void judge_fabric(Workspace *w)
     bool beyond = -e->internal > BILLOW_FEEDING_LIMITS * w->model->energy_error_limit * e->largest && e->largest > 0.0;
     e->feeding_cycles = beyond ? e->feeding_cycles + 1 : 0;
     if (e->feeding_cycles >= BILLOW_LOST_CYCLES)
-        step_fail(
-            w,
-            "fabric of FORM 0 or 1 with CSE = 1 and DAMP = 0 has no stored energy and can do that: set DAMP = 0.05 "
-            "(or FORM = 2), or lower TSSFAC; --energy-error-limit raises the limit",
-            "the stress of the shells has given %.6g more energy than it received, the loads %.6g", -e->internal,
-            e->largest);
+        step_fail(w,
+                  "fabric of FORM 0 or 1 with CSE = 1 has no stored energy and can do that: set DAMP = 0.05 or more, "
+                  "or FORM = 2, "
+                  "which cannot; --energy-error-limit raises the limit",
+                  "the stress of the shells has given %.6g more energy than it received, the loads %.6g", -e->internal,
+                  e->largest);
 }
 
 /* Works up to t_n: what was counted up to the half step before, and half of this cycle's (eq. L4). */
