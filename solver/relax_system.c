@@ -217,21 +217,22 @@ static int create_matrix(RelaxSystem *s)
 }
 
 /* CHOLMOD and some BLAS libraries have threads of their own, which would wait for each other at every supernode, and
- * whose number could change bits. */
-static void limit_threads(const char *setter)
+ * whose number could change bits. CHOLMOD asks OpenMP for a fixed number of threads; no level of parallel regions may
+ * be active, then it gets one. */
+static void limit_threads(const char *setter, int value)
 {
     void *symbol = dlsym(RTLD_DEFAULT, setter);
     void (*set)(int);
     if (!symbol) return;
     memcpy(&set, &symbol, sizeof set);
-    set(1);
+    set(value);
 }
 
 static int analyse(RelaxSystem *s)
 {
     cholmod_common *cm = &s->common;
-    limit_threads("omp_set_num_threads");
-    limit_threads("openblas_set_num_threads");
+    limit_threads("omp_set_max_active_levels", 0);
+    limit_threads("openblas_set_num_threads", 1);
     cm->supernodal = CHOLMOD_SUPERNODAL;
     cm->final_ll = 1;
     cm->nmethods = 2; /* the better of two orderings; without METIS the other is left */
