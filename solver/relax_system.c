@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/dense_blas.h"
 #include "solver/memory.h"
 #include "solver/relax_assemble.h"
 
@@ -216,23 +217,22 @@ static int create_matrix(RelaxSystem *s)
     return 0;
 }
 
-/* CHOLMOD and some BLAS libraries have threads of their own, which would wait for each other at every supernode, and
- * whose number could change bits. CHOLMOD asks OpenMP for a fixed number of threads; no level of parallel regions may
- * be active, then it gets one. */
-static void limit_threads(const char *setter, int value)
+/* CHOLMOD asks OpenMP for a fixed number of threads, which would wait for each other at every supernode. It gets one
+ * when no level of parallel regions may be active. The program itself does not use OpenMP. */
+static void forbid_threads(void)
 {
-    void *symbol = dlsym(RTLD_DEFAULT, setter);
-    void (*set)(int);
+    void *symbol = dlsym(RTLD_DEFAULT, "omp_set_max_active_levels");
+    void (*set_levels)(int);
     if (!symbol) return;
-    memcpy(&set, &symbol, sizeof set);
-    set(value);
+    memcpy(&set_levels, &symbol, sizeof set_levels);
+    set_levels(0);
 }
 
 static int analyse(RelaxSystem *s)
 {
     cholmod_common *cm = &s->common;
-    limit_threads("omp_set_max_active_levels", 0);
-    limit_threads("openblas_set_num_threads", 1);
+    forbid_threads();
+    dense_blas_start();
     cm->supernodal = CHOLMOD_SUPERNODAL;
     cm->final_ll = 1;
     cm->nmethods = 2; /* the better of two orderings; without METIS the other is left */

@@ -1,4 +1,5 @@
 /* The phase before the run: hand-over to the time loop, dynamic relaxation, what has no equilibrium. */
+#define _GNU_SOURCE
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,8 +8,10 @@
 
 #include <cmocka.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "elements/kernels.h"
 #include "solver/memory.h"
 #include "solver/relax.h"
 #include "tests/verify.h"
@@ -72,6 +75,24 @@ static void relax_disc(int flag, bool automatic, double tolerance, Relaxed *r)
     scene_free(&scene);
     diagnostics_free(&again);
     model_free(&phase);
+}
+
+/* Newton's method in the kernels of each instruction set. */
+static void same_bits(void **state)
+{
+    (void)state;
+    const char *level[] = {"v2", "v3", "v4"};
+    Relaxed first, again;
+    for (int i = 0; i < 3; i++) {
+        if (!kernels_select(level[i])) continue;
+        setenv("BILLOW_KERNELS", level[i], 1);
+        relax_disc(5, false, 1e-6, i == 0 ? &first : &again);
+        if (i == 0) continue;
+        assert_memory_equal(first.x, again.x, 3 * (size_t)first.run.model.node_count * sizeof *first.x);
+        free_relaxed(&again);
+    }
+    unsetenv("BILLOW_KERNELS");
+    free_relaxed(&first);
 }
 
 static void dynamic_relaxation(void **state)
@@ -261,8 +282,9 @@ static void no_equilibrium(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(dynamic_relaxation), cmocka_unit_test(flagged_bag),     cmocka_unit_test(hand_over),
-        cmocka_unit_test(hand_over_ledger),   cmocka_unit_test(free_mechanisms), cmocka_unit_test(no_equilibrium),
+        cmocka_unit_test(same_bits),      cmocka_unit_test(dynamic_relaxation), cmocka_unit_test(flagged_bag),
+        cmocka_unit_test(hand_over),      cmocka_unit_test(hand_over_ledger),   cmocka_unit_test(free_mechanisms),
+        cmocka_unit_test(no_equilibrium),
     };
     return cmocka_run_group_tests_name("phase before the run", tests, NULL, NULL);
 }
