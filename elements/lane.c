@@ -31,19 +31,51 @@ void lane_corners(const ElementGroup *group, const double *x, int64_t place, dou
         memcpy(corner[a], x + 3 * (ptrdiff_t)node[a * BILLOW_LANES], sizeof corner[a]);
 }
 
-/* q.q of a quad's corners (eq. E15); 0 where its law makes no use of it. */
+static const double *hourglass_constants(const ElementGroup *group, const double *geometry)
+{
+    return geometry + (group->point_count * GEOMETRY_POINT_SIZE + GEOMETRY_TAIL_SIZE) * BILLOW_LANES;
+}
+
+/* A quad's vector q (eq. E15). */
+static void hourglass_vector(const double *skew, double corner[4][3], double q[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double x0 = corner[0][k], x1 = corner[1][k], x2 = corner[2][k], x3 = corner[3][k];
+        q[k] = 0.25 * (((x0 - x1) + (x2 - x3)) - skew[GEOMETRY_SKEW1 * BILLOW_LANES] * ((x1 - x0) + (x2 - x3)) -
+                       skew[GEOMETRY_SKEW2 * BILLOW_LANES] * ((x3 - x0) + (x2 - x1)));
+    }
+}
+
+/* q.q; 0 where the law makes no use of it. */
 static double hourglass_square(const ElementGroup *group, const double *geometry, double corner[4][3])
 {
     if (group->kind == ELEMENT_TRIANGLE || (group->kind == ELEMENT_QUAD_FULL && group->law != LAW_BIOT)) return 0.0;
-    const double *skew = geometry + (group->point_count * GEOMETRY_POINT_SIZE + GEOMETRY_TAIL_SIZE) * BILLOW_LANES;
-    double square = 0.0;
+    double q[3];
+    hourglass_vector(hourglass_constants(group, geometry), corner, q);
+    return dot(q, q);
+}
+
+/* r1, r2 of the in-plane hourglass modes, which are quadratic in the positions (eq. E18). */
+static void hourglass_modes(const double *constant, double corner[4][3], double r[2])
+{
+    double q[3];
+    hourglass_vector(constant, corner, q);
+    r[0] = r[1] = 0.0;
     for (int k = 0; k < 3; k++) {
         double x0 = corner[0][k], x1 = corner[1][k], x2 = corner[2][k], x3 = corner[3][k];
-        double q = 0.25 * (((x0 - x1) + (x2 - x3)) - skew[GEOMETRY_SKEW1 * BILLOW_LANES] * ((x1 - x0) + (x2 - x3)) -
-                           skew[GEOMETRY_SKEW2 * BILLOW_LANES] * ((x3 - x0) + (x2 - x1)));
-        square += q * q;
+        r[0] += 0.25 * q[k] * ((x1 - x0) + (x2 - x3));
+        r[1] += 0.25 * q[k] * ((x3 - x0) + (x2 - x1));
     }
-    return square;
+}
+
+double lane_hourglass_work(const ElementGroup *group, const double *geometry, double corner[3][4][3])
+{
+    if (group->kind != ELEMENT_QUAD_ONE) return 0.0;
+    const double *constant = hourglass_constants(group, geometry);
+    double r[3][2];
+    for (int i = 0; i < 3; i++) hourglass_modes(constant, corner[i], r[i]);
+    return 0.5 * (constant[GEOMETRY_HOURGLASS1 * BILLOW_LANES] * r[0][0] * (r[2][0] - r[1][0]) +
+                  constant[GEOMETRY_HOURGLASS2 * BILLOW_LANES] * r[0][1] * (r[2][1] - r[1][1]));
 }
 
 /* Natural gradients of the position at a point, and what the fold adds to their metric per unit of q.q. */

@@ -20,6 +20,10 @@ void lane_corners(const ElementGroup *group, const double *x, int64_t place, dou
 /* Points of the element at these corners; geometry: the lane's constants, stride BILLOW_LANES. point (point_count). */
 void lane_points(const ElementGroup *group, const double *geometry, double corner[4][3], LanePoint *point);
 
+/* Work of the in-plane hourglass control of a one-point quad (eq. E18) at corner[0] on the way from there; 0 of others.
+ * corner[2] as far ahead as corner[1] is behind. */
+double lane_hourglass_work(const ElementGroup *group, const double *geometry, double corner[3][4][3]);
+
 /* Place of the lane's first constant. */
 static inline ptrdiff_t lane_offset(const ElementGroup *group, int64_t place)
 {

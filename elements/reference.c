@@ -232,7 +232,7 @@ double reference_work(const ElementGroup *group, const double *geometry, const d
                       const double *memory, bool damped, int64_t place)
 {
     const double *tail = geometry + (ptrdiff_t)group->point_count * GEOMETRY_POINT_SIZE * LANES;
-    double corner[3][4][3], velocity[4][3], work = 0.0;
+    double corner[3][4][3], velocity[4][3];
     LanePoint now[4], back[4], ahead[4];
     lane_corners(group, x, place, corner[0]);
     lane_corners(group, v, place, velocity);
@@ -245,6 +245,7 @@ double reference_work(const ElementGroup *group, const double *geometry, const d
     lane_points(group, geometry, corner[0], now);
     lane_points(group, geometry, corner[1], back);
     lane_points(group, geometry, corner[2], ahead);
+    double work = lane_hourglass_work(group, geometry, corner);
     for (int p = 0; p < group->point_count; p++) {
         double s[3], change[3]; /* the metric is quadratic in the positions: the part of first order */
         for (int i = 0; i < 3; i++) change[i] = 0.5 * (ahead[p].c[i] - back[p].c[i]);

@@ -36,9 +36,9 @@ double reference_least_square(const ElementGroup *group, const double *geometry,
 /* Is the fabric of an element in tension at some point? geometry: the lane's constants. */
 bool reference_is_taut(const ElementGroup *group, const double *geometry, const double *x, int64_t place);
 
-/* Work of an element's stress at x on the way v dt that led there, exact for forces that act at x (eq. R10a); hourglass
- * control apart. geometry: the lane's constants; memory: what its law remembers (stride BILLOW_LANES, unchanged), NULL:
- * untouched material; damped: with the stress of DAMP. */
+/* Work of an element's stress at x on the way v dt that led there, exact for forces that act at x (eq. R10a), hourglass
+ * control included. geometry: the lane's constants; memory: what its law remembers (stride BILLOW_LANES, unchanged),
+ * NULL: untouched material; damped: with the stress of DAMP. */
 double reference_work(const ElementGroup *group, const double *geometry, const double *x, const double *v, double dt,
                       const double *memory, bool damped, int64_t place);
 

@@ -53,7 +53,10 @@ static void run_chunk(Workspace *w, int number, int chunk)
                          .rows = w->rows,
                          .restart_ledger = w->state->clock->cycle == 0};
     w->chunks[chunk] = (ChunkSums){0};
-    if (group->has_reference && step_reference_changes(w, number)) input.rows = NULL;
+    if (group->has_reference && step_reference_changes(w, number))
+        input.rows = NULL;
+    else if (group->has_reference)
+        step_reference_wake(w, number, chunk, &input);
     kernels_for(w->kernels, group)(&input, &w->chunks[chunk]);
     if (group->has_reference) step_reference_chunk(w, number, chunk, &input, &w->chunks[chunk]);
     if (m->ties.count > 0) step_ties_watch(w, number, chunk);

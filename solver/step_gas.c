@@ -189,6 +189,7 @@ void step_gas(Workspace *w)
     if (m->loads.class_count > 0) set_classes(w);
     w->plan.last = clock->time >= m->end_time || (m->end_cycle > 0 && clock->cycle >= m->end_cycle);
     if (choose_step(w, rate)) return;
+    if (m->has_reference) step_reference_shorten(w);
     w->plan.dt_mean = 0.5 * (w->plan.dt_before + w->plan.dt_next);
     w->plan.emit = w->hooks->due(w->hooks->user, m, w->state, w->plan.last) || w->plan.last;
     w->plan.node_advance = w->plan.emit || m->wall_count > 0 ? 0.0 : w->plan.dt_next;

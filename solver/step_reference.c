@@ -8,6 +8,7 @@
 
 /* The share of the initial stretch left out comes in steps, each of which costs a call of the kernels. */
 enum { SHARE_STEPS = 64 };
+#define SUDDEN 0.9 /* a change that shortens the step to less than this share of the last one */
 
 /* What becomes of a group's reference at t_n, from what it was: the same for every thread. */
 static ReferenceState next_reference(const Workspace *w, const ElementGroup *group, const ReferenceState *now)
@@ -37,21 +38,27 @@ static double stored(const Workspace *w, const ElementGroup *group, int first, i
     return sum;
 }
 
-/* Work of the stress of all elements of the blocks on the way of the last step. */
-static double work_of_step(const Workspace *w, const ElementGroup *group, bool loaded, int first, int end)
+/* Work of an element's stress on the way of the last step. */
+static double work_of_lane(const Workspace *w, const ElementGroup *group, bool loaded, int64_t place)
 {
     const double dt = w->state->clock->step;
+    if (!(dt > 0.0)) return 0.0;
     const bool remembers = loaded && law_memory_size(group->law, &group->material) > 0;
+    const double *memory =
+        w->state->history + group->history_offset +
+        (place / BILLOW_LANES * group->history_size + history_size(group->point_count)) * BILLOW_LANES +
+        place % BILLOW_LANES;
+    return reference_work(group, group->geometry + lane_offset(group, place), w->state->x, w->state->v, dt,
+                          remembers ? memory : NULL, loaded, place);
+}
+
+/* The same of all elements of the blocks. */
+static double work_of_step(const Workspace *w, const ElementGroup *group, bool loaded, int first, int end)
+{
     double sum = 0.0;
     for (int64_t place = (int64_t)first * BILLOW_LANES;
-         dt > 0.0 && place < (int64_t)end * BILLOW_LANES && place < group->element_count; place++) {
-        const double *memory =
-            w->state->history + group->history_offset +
-            (place / BILLOW_LANES * group->history_size + history_size(group->point_count)) * BILLOW_LANES +
-            place % BILLOW_LANES;
-        sum += reference_work(group, group->geometry + lane_offset(group, place), w->state->x, w->state->v, dt,
-                              remembers ? memory : NULL, loaded, place);
-    }
+         place < (int64_t)end * BILLOW_LANES && place < group->element_count; place++)
+        sum += work_of_lane(w, group, loaded, place);
     return sum;
 }
 
@@ -104,18 +111,20 @@ static void change_reference(Workspace *w, int number, const KernelInput *input,
     kernels_for(w->kernels, &later)(&again, &changed);
     const double after = by_work ? stored(w, &later, input->first_block, input->end_block) : changed.energy;
     jump->energy += after - before;
-    jump->outside += (changed.hourglass - sums->hourglass) +
-                     0.5 * (held - work_of_step(w, &later, false, input->first_block, input->end_block));
+    jump->outside += (changed.hourglass - sums->hourglass) + 0.5 * held;
+    jump->pull += 0.5 * work_of_step(w, &later, false, input->first_block, input->end_block);
     sums->energy += after - before;
     sums->hourglass = changed.hourglass;
     sums->rate = changed.rate > sums->rate ? changed.rate : sums->rate;
 }
 
-/* Liners of elements that are taut for the first time act from now on (LNRC). */
-static void wake_liners(Workspace *w, int number, const KernelInput *input, ChunkSums *sums, ReferenceJump *jump)
+void step_reference_wake(Workspace *w, int number, int chunk, const KernelInput *input)
 {
     const ElementGroup *group = &w->reference.groups[number];
     const ReferenceState *now = &w->state->reference[number];
+    ReferenceJump *jump = &w->reference_jump[chunk];
+    *jump = (ReferenceJump){0};
+    if (!group->rule.liner_waits || !now->born) return;
     double *own = w->reference.own[number];
     for (int64_t place = (int64_t)input->first_block * BILLOW_LANES;
          place < (int64_t)input->end_block * BILLOW_LANES && place < group->element_count; place++) {
@@ -125,10 +134,10 @@ static void wake_liners(Workspace *w, int number, const KernelInput *input, Chun
             !reference_is_taut(group, lane, w->state->x, place))
             continue;
         *reached = 1;
+        double held = work_of_lane(w, group, true, place); /* of its hourglass control, which does not wait */
         reference_constants(&w->model->groups[number], now->applied, true, place, lane);
-        double energy = reference_energy(group, lane, w->state->x, place);
-        sums->energy += energy;
-        jump->energy += energy;
+        jump->energy +=
+            reference_energy(group, lane, w->state->x, place) - 0.5 * (work_of_lane(w, group, true, place) - held);
     }
 }
 
@@ -144,30 +153,44 @@ void step_reference_chunk(Workspace *w, int number, int chunk, const KernelInput
     const ElementGroup *group = &w->reference.groups[number];
     const ReferenceState *now = &w->state->reference[number], next = next_reference(w, group, now);
     ReferenceJump *jump = &w->reference_jump[chunk];
-    *jump = (ReferenceJump){0};
-    if (now->born) {
-        double rate =
-            reference_rate(group, group->geometry, input->first_block, input->end_block, w->state->x, input->lane_rate);
-        if (rate > sums->rate || (reference_replaces_rate(group) && isfinite(sums->rate))) sums->rate = rate;
-    }
-    if (next.born != now->born || next.applied != now->applied)
+    if (next.born != now->born || next.applied != now->applied) {
+        *jump = (ReferenceJump){0};
         change_reference(w, number, input, &next, sums, jump);
-    else if (group->rule.liner_waits && now->born)
-        wake_liners(w, number, input, sums, jump);
+    } else if (!law_stores_energy(group->law, &group->material)) {
+        sums->energy += jump->energy; /* of the liners that woke */
+    }
+    if (!next.born) return;
+    const double *geometry = w->reference.own[number] ? w->reference.own[number] : w->model->groups[number].geometry;
+    double rate = reference_rate(group, geometry, input->first_block, input->end_block, w->state->x, input->lane_rate);
+    if (rate > sums->rate || (reference_replaces_rate(group) && isfinite(sums->rate))) sums->rate = rate;
 }
 
 double step_reference_advance(Workspace *w)
 {
     const Model *m = w->model;
     double sum = 0.0;
+    w->reference_pull = 0.0;
+    w->reference_changed = false;
     for (int g = 0; g < m->group_count; g++) {
         ElementGroup *group = &w->reference.groups[g];
         if (!group->has_reference) continue;
         int chunks = (group->block_count + BILLOW_CHUNK - 1) / BILLOW_CHUNK;
-        for (int c = 0; c < chunks; c++)
-            sum += w->reference_jump[group->first_chunk + c].energy + w->reference_jump[group->first_chunk + c].outside;
+        for (int c = 0; c < chunks; c++) {
+            const ReferenceJump *jump = &w->reference_jump[group->first_chunk + c];
+            sum += jump->energy + jump->outside;
+            w->reference_pull += jump->pull;
+        }
+        w->reference_changed = w->reference_changed || step_reference_changes(w, g);
         w->state->reference[g] = next_reference(w, group, &w->state->reference[g]);
         reference_work_select(m, w->state, g, &w->reference);
     }
-    return sum;
+    return sum - w->reference_pull;
+}
+
+void step_reference_shorten(Workspace *w)
+{
+    CyclePlan *plan = &w->plan;
+    if (!w->reference_changed || !(plan->dt_next < SUDDEN * plan->dt_before)) return;
+    w->state->energy->external_half += (1.0 - plan->dt_next / plan->dt_before) * w->reference_pull;
+    plan->dt_before = plan->dt_next;
 }

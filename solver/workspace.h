@@ -110,7 +110,8 @@ typedef struct WallSums {
 /* What a change of the reference brings to the energies of a chunk at t_n (eq. R10, R10a). */
 typedef struct ReferenceJump {
     double energy;  /* stored in the elements */
-    double outside; /* of the hourglass control, and the work of the stress that the change takes away */
+    double outside; /* of the hourglass control, and half the work of the stress that the change takes away */
+    double pull;    /* half the work that the new stress would have done in the last step */
 } ReferenceJump;
 
 typedef struct Workspace {
@@ -166,6 +167,8 @@ typedef struct Workspace {
     double *jet_area;              /* area of the facets of each row while looking (jet_row_count) */
     ReferenceWork reference;       /* groups with the constants that hold now */
     ReferenceJump *reference_jump; /* (chunk_count) written by step_reference_chunk */
+    double reference_pull;         /* sum of their pull [energy] */
+    bool reference_changed;        /* some reference does in this cycle */
     const Curve *curves;           /* the model's, or live_curves if the model has functions */
     Curve *live_curves;            /* the model's with the functions' values */
     double *function_value;        /* (airbag_count x function_count) */
@@ -223,10 +226,14 @@ void step_jets_react(Workspace *w, NodeSums *t);            /* thread 0: reactio
 void step_jets_count_reaction(Workspace *w, NodeSums *t);   /* thread 0: power after the step */
 /* Does the reference of a group change at t_n? Then its old stress leaves the rows alone. */
 bool step_reference_changes(const Workspace *w, int number);
-/* All threads: one chunk of a group with a reference geometry, after the kernel: step, birth, return of tension. */
+/* All threads: one chunk of a group with a reference geometry. Before the kernel, where the reference stays: elements
+ * that are taut for the first time act from now on (LNRC). After it: step, birth, return of tension. */
+void step_reference_wake(Workspace *w, int number, int chunk, const KernelInput *input);
 void step_reference_chunk(Workspace *w, int number, int chunk, const KernelInput *input, ChunkSums *sums);
 double step_reference_advance(
     Workspace *w); /* thread 0: the states move on; energy that this cycle's changes brought */
+/* Thread 0: where a change shortens the step, its stress acts for no longer than that before t_n (eq. R10b). */
+void step_reference_shorten(Workspace *w);
 void step_fail(Workspace *w, const char *advice, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 #endif
