@@ -1,5 +1,6 @@
 /* Contact in the time loop: when to search, the work of the threads, sums (docs/theory.md, Contact). */
 #define _POSIX_C_SOURCE 200809L
+#include <stdlib.h>
 #include <time.h>
 
 #include "contact/contact_law.h"
@@ -14,11 +15,17 @@ static double clock_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void contact_move_groups(const ContactLoop *loop, ContactRun *run, double time)
+void contact_follow_groups(ContactLoop *loop, int thread, int threads)
 {
-    contact_groups_move(&run->nodes, loop->motions, time);
-    contact_groups_move(&run->triangles, loop->motions, time);
-    contact_groups_move(&run->lines, loop->motions, time);
+    for (int i = 0; i < loop->model->contact_count; i++) {
+        ContactRun *run = &loop->runs[i];
+        ContactGroups *all[3] = {&run->nodes, &run->triangles, &run->lines};
+        for (int k = 0; k < 3; k++) {
+            int64_t count = all[k]->count;
+            contact_groups_follow(all[k], loop->state->v, (int)(count * thread / threads),
+                                  (int)(count * (thread + 1) / threads));
+        }
+    }
 }
 
 /* (w dt)^2 that elements may have, and what they and the gas leave of the limit 4 in their plane (eq. C5). */
@@ -63,7 +70,7 @@ static double choose_skin(const ContactLoop *loop)
         thickest = fmax(thickest, m->contacts[i].thickest);
         side = m->contacts[i].longest_side > 0.0 ? fmin(side, m->contacts[i].longest_side) : side;
     }
-    double least = thickest > 0.0 ? thickest : 0.05 * side, most = 0.5 * side;
+    double least = thickest > 0.0 ? thickest : 0.05 * side, most = side;
     return skin < least ? least : skin > most ? (most > least ? most : least) : skin;
 }
 
@@ -75,6 +82,7 @@ static void set_thinness(ContactLoop *loop)
         const ContactInterface *c = run->contact;
         run->thinness = 1.0;
         run->alive = loop->step.time >= c->birth && loop->step.time < c->death;
+        if (run->alive && run->asleep) contact_awake(&run->faces), contact_awake(&run->edges);
         if (c->thickness_curve < 0) continue;
         const Curve *curve = &m->curves[c->thickness_curve];
         double most = 0.0, now = curve_value(curve, loop->step.time);
@@ -102,15 +110,6 @@ void contact_prepare(ContactLoop *loop, double time, double before, double next,
     loop->state->contact->started = 1;
 }
 
-void contact_planes(ContactLoop *loop, int thread, int threads)
-{
-    for (int i = 0; i < loop->model->contact_count; i++) {
-        int64_t count = loop->runs[i].contact->triangle_count;
-        contact_fill_planes(&loop->runs[i], loop->state->x, (int)(count * thread / threads),
-                            (int)(count * (thread + 1) / threads), false);
-    }
-}
-
 static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run)
 {
     const ContactInterface *c = run->contact;
@@ -128,21 +127,22 @@ static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run)
                         .static_friction = c->static_friction,
                         .dynamic_friction = c->dynamic_friction,
                         .decay = c->decay,
-                        .deepest =
-                            10.0 * c->thickest > 0.5 * c->longest_side ? 10.0 * c->thickest : 0.5 * c->longest_side};
+                        .deepest = contact_deepest(c)};
 }
 
 /* A contact that is not born yet, or is dead, forgets. */
 static void sleep_list(ContactList *list)
 {
-    if (list->pairs.count) memset(list->pairs.slot, 0, list->pairs.count);
     memset(list->memory, 0, (size_t)list->owner_count * CONTACT_SLOTS * sizeof *list->memory);
+    memset(list->held, 0, (size_t)list->owner_count);
     memset(list->depth, 0, (size_t)list->owner_count * sizeof *list->depth);
-    for (int c = 0; c < list->chunk_count; c++) list->sums[c] = (ContactSums){0};
+    memset(list->deepest, 0, (size_t)list->group_count * sizeof *list->deepest);
+    for (int c = 0; c < list->group_count; c++) list->sums[c] = (ContactSums){0};
 }
 
 void contact_forces(ContactLoop *loop, int thread, int threads)
 {
+    loop->parts[thread].force_count = 0;
     for (int i = 0; i < loop->model->contact_count; i++) {
         ContactRun *run = &loop->runs[i];
         if (!run->alive) {
@@ -153,13 +153,13 @@ void contact_forces(ContactLoop *loop, int thread, int threads)
         }
         if (thread == 0) run->asleep = false;
         ContactLaw law = law_of(loop, run);
-        int chunks = run->faces.chunk_count, all = chunks + run->edges.chunk_count;
-        /* chunks in turn: neighbouring ones are busy alike */
-        for (int c = thread; c < all; c += threads) {
-            if (c < chunks)
-                contact_meet_faces(loop, run, &law, c);
+        int faces = run->faces.group_count, all = faces + run->edges.group_count;
+        /* groups in turn: neighbouring ones are busy alike */
+        for (int g = thread; g < all; g += threads) {
+            if (g < faces)
+                contact_meet_faces(loop, run, &law, g, thread);
             else
-                contact_meet_edges(loop, run, &law, c - chunks);
+                contact_meet_edges(loop, run, &law, g - faces, thread);
         }
     }
 }
@@ -167,8 +167,9 @@ void contact_forces(ContactLoop *loop, int thread, int threads)
 /* Adds what the forces of one list give to the nodes [first, end), in the list's order. */
 static void gather_list(ContactLoop *loop, const ContactList *list, int32_t first, int32_t end)
 {
-    for (int c = 0; c < list->chunk_count; c++) {
-        const ContactForce *force = list->forces + list->pairs.start[c * CONTACT_CHUNK];
+    for (int c = 0; c < list->group_count; c++) {
+        if (list->sums[c].count == 0) continue;
+        const ContactForce *force = loop->parts[list->pieces[c].thread].force + list->pieces[c].first;
         for (int k = 0; k < list->sums[c].count; k++, force++)
             for (int i = 0; i < 4; i++) {
                 int32_t node = force->node[i];
@@ -238,11 +239,12 @@ void contact_follow(ContactLoop *loop, int thread, int threads, double pending)
         }
         loop->motions[c] = sum;
     }
+    contact_follow_groups(loop, thread, threads);
     if (loop->model->blockage) share_blocked(loop, thread, threads);
     if (thread == 0) loop->pending = true;
 }
 
-/* Counts what happened in a chunk; of the first the node and the time are kept. */
+/* Counts what happened in a group; of the first the node and the time are kept. */
 static void note(int64_t *total, int64_t *node, double *time, int count, int id, const ContactLoop *loop)
 {
     if (count > 0 && *total == 0) {
@@ -252,11 +254,11 @@ static void note(int64_t *total, int64_t *node, double *time, int count, int id,
     *total += count;
 }
 
-/* Sums of the lists in chunk order; the first pairs that were lost or too fast are remembered for the log. */
+/* Sums of the lists in the groups' order; the first pairs that were lost or too fast are remembered for the log. */
 static void sum_list(ContactLoop *loop, ContactRun *run, const ContactList *list)
 {
     ContactClock *clock = loop->state->contact;
-    for (int c = 0; c < list->chunk_count; c++) {
+    for (int c = 0; c < list->group_count; c++) {
         const ContactSums *s = &list->sums[c];
         for (int k = 0; k < 3; k++) run->force[k] += s->force[k];
         loop->power += s->power;
@@ -279,6 +281,7 @@ void contact_sum(ContactLoop *loop)
         sum_list(loop, run, &run->faces);
         sum_list(loop, run, &run->edges);
     }
+    for (int k = 0; k < BILLOW_MAX_THREADS; k++) loop->out_of_memory = loop->out_of_memory || loop->parts[k].failed;
     for (int c = 0; c < loop->motion_count; c++) {
         const ContactMotion *m = &loop->motions[c];
         loop->power_after += m->power;
@@ -286,21 +289,27 @@ void contact_sum(ContactLoop *loop)
         for (int k = 0; k < 3; k++) contact_drift_add(&drift, k, m->drift.low[k], m->drift.high[k]);
     }
     loop->fastest = sqrt(fastest);
-    loop->motion += 2.0 * loop->fastest * loop->step.next;
-    for (int i = 0; i < loop->model->contact_count; i++) contact_move_groups(loop, &loop->runs[i], loop->step.next);
     loop->search_due = loop->search_due || contact_drift_exceeds(&drift, loop->state->contact->skin);
+}
+
+static int compare_memories(const void *a, const void *b)
+{
+    const ContactMemory *m = a, *n = b;
+    return (m->pair[1] > n->pair[1]) - (m->pair[1] < n->pair[1]);
 }
 
 static void store_list(const ContactList *list, int base, ContactMemory *to, int capacity, int *count)
 {
-    for (int i = 0; list->pairs.start && i < list->owner_count; i++)
-        for (int32_t p = list->pairs.start[i]; p < list->pairs.start[i + 1] && *count < capacity; p++) {
-            const ContactMemory *m = contact_recall(list, i, p);
-            if (!m) continue;
+    for (int i = 0; i < list->owner_count; i++) {
+        int first = *count;
+        for (int k = 0; list->held[i] && k < CONTACT_SLOTS && *count < capacity; k++) {
+            const ContactMemory *m = &list->memory[(ptrdiff_t)i * CONTACT_SLOTS + k];
+            if (!m->side) continue;
             to[*count] = *m;
-            to[*count].pair[0] = base + i;
-            to[(*count)++].pair[1] = list->pairs.other[p];
+            to[(*count)++].pair[0] = base + i;
         }
+        qsort(to + first, (size_t)(*count - first), sizeof *to, compare_memories);
+    }
 }
 
 void contact_store(ContactLoop *loop)

@@ -4,37 +4,41 @@
 
 #include "contact/contact_grid.h"
 #include "contact/contact_loop.h"
+#include "contact/contact_patches.h"
 #include "solver/memory.h"
 #include "solver/vector3.h"
 
 static int list_create(ContactList *list, int owners)
 {
+    size_t groups = (size_t)(owners + CONTACT_GROUP - 1) / CONTACT_GROUP;
     list->owner_count = owners;
-    list->chunk_count = (owners + CONTACT_CHUNK - 1) / CONTACT_CHUNK;
-    list->sums = memory_alloc((size_t)list->chunk_count + 1, sizeof *list->sums);
-    list->passages = memory_alloc((size_t)list->chunk_count + 1, sizeof *list->passages);
+    list->group_count = (int)groups;
+    list->sums = memory_alloc(groups + 1, sizeof *list->sums);
+    list->pieces = memory_alloc(groups + 1, sizeof *list->pieces);
+    list->passages = memory_alloc(groups + 1, sizeof *list->passages);
+    list->start = memory_alloc(groups + 1, sizeof *list->start);
+    list->next_start = memory_alloc(groups + 1, sizeof *list->next_start);
+    list->deepest = memory_alloc(groups + 1, sizeof *list->deepest);
     list->memory = memory_alloc((size_t)owners * CONTACT_SLOTS + 1, sizeof *list->memory);
+    list->held = memory_alloc((size_t)owners + 1, 1);
     list->depth = memory_alloc((size_t)owners + 1, sizeof *list->depth);
-    list->idle = memory_alloc((size_t)list->chunk_count + 1, sizeof *list->idle);
-    return list->sums && list->passages && list->memory && list->depth && list->idle ? 0 : -1;
-}
-
-static void pairs_free(ContactPairs *pairs)
-{
-    memory_free(pairs->start);
-    memory_free(pairs->other);
-    memory_free(pairs->wake);
-    memory_free(pairs->slot);
+    return list->sums && list->pieces && list->passages && list->start && list->next_start && list->deepest &&
+                   list->memory && list->held && list->depth
+               ? 0
+               : -1;
 }
 
 static void list_free(ContactList *list)
 {
-    pairs_free(&list->pairs);
-    pairs_free(&list->before);
     memory_free(list->memory);
+    memory_free(list->held);
     memory_free(list->depth);
-    memory_free(list->idle);
-    memory_free(list->forces);
+    memory_free(list->deepest);
+    memory_free(list->start);
+    memory_free(list->pair);
+    memory_free(list->next_start);
+    memory_free(list->next);
+    memory_free(list->pieces);
     memory_free(list->sums);
     memory_free(list->passages);
 }
@@ -49,14 +53,17 @@ void contact_free(ContactLoop *loop)
         contact_groups_free(&loop->runs[i].triangles);
         contact_groups_free(&loop->runs[i].lines);
         memory_free(loop->runs[i].plane);
-        memory_free(loop->runs[i].used);
-        memory_free(loop->runs[i].calm);
+        memory_free(loop->runs[i].line_body);
+        memory_free(loop->runs[i].line_shell);
+        memory_free(loop->runs[i].line_group);
     }
     contact_grid_free(&loop->grid);
     memory_free(loop->box);
     for (int k = 0; loop->parts && k < BILLOW_MAX_THREADS; k++) {
+        memory_free(loop->parts[k].pair);
+        memory_free(loop->parts[k].force);
+        memory_free(loop->parts[k].near);
         memory_free(loop->parts[k].other);
-        memory_free(loop->parts[k].height);
         memory_free(loop->parts[k].found.item);
     }
     memory_free(loop->parts);
@@ -81,7 +88,7 @@ static void fill_speeds(ContactLoop *loop)
         fastest = fmax(fastest, motion->fastest);
     }
     loop->fastest = sqrt(fastest);
-    for (int i = 0; i < m->contact_count; i++) contact_move_groups(loop, &loop->runs[i], 0.0);
+    contact_follow_groups(loop, 0, 1);
 }
 
 /* Can two nodes have come nearer by the skin since the last search? */
@@ -104,13 +111,77 @@ static void restore_memories(ContactLoop *loop)
         const ContactMemory *stored = loop->state->contact_memory + run->contact->first_memory;
         for (int k = 0; k < loop->state->contact_memories[i]; k++) {
             bool edge = stored[k].pair[0] >= run->contact->node_count;
-            ContactPairs *pairs = edge ? &run->edges.pairs : &run->faces.pairs;
             int owner = edge ? stored[k].pair[0] - run->contact->node_count : stored[k].pair[0];
-            for (int32_t p = pairs->start[owner]; p < pairs->start[owner + 1]; p++)
-                if (pairs->other[p] == stored[k].pair[1])
-                    contact_keep(edge ? &run->edges : &run->faces, owner, p, &stored[k]);
+            contact_keep(edge ? &run->edges : &run->faces, owner, stored[k].pair[1], &stored[k]);
+        }
+        for (int k = 0; k < run->nodes.count * CONTACT_GROUP; k++) {
+            int g = k / CONTACT_GROUP, node = run->nodes.lanes[g].item[k % CONTACT_GROUP];
+            if (node >= 0) run->faces.deepest[g] = fmax(run->faces.deepest[g], run->faces.depth[node]);
         }
     }
+}
+
+/* Items that share a node are neighbours. */
+static int group_items(ContactGroups *groups, const ContactItems *items, int nodes)
+{
+    int links = items->count * items->corners, status = -1;
+    int32_t *item = memory_alloc((size_t)links + 1, sizeof *item);
+    int32_t *order = memory_alloc((size_t)items->count + 1, sizeof *order);
+    for (int k = 0; item && k < links; k++) item[k] = k / items->corners;
+    if (item && order) status = contact_patches(items->count, nodes, links, item, items->node, CONTACT_GROUP, order);
+    if (!status) status = contact_groups_create(groups, items, order);
+    memory_free(item);
+    memory_free(order);
+    return status;
+}
+
+/* Nodes of one triangle are neighbours. */
+static int group_nodes(ContactGroups *groups, const ContactInterface *c, const ContactItems *items, int nodes)
+{
+    int links = 0, status = -1;
+    int32_t *place_of = memory_alloc((size_t)nodes + 1, sizeof *place_of);
+    int32_t *item = memory_alloc(3 * (size_t)c->triangle_count + 1, sizeof *item);
+    int32_t *place = memory_alloc(3 * (size_t)c->triangle_count + 1, sizeof *place);
+    int32_t *order = memory_alloc((size_t)items->count + 1, sizeof *order);
+    if (place_of && item && place && order) {
+        for (int k = 0; k < c->node_count; k++) place_of[c->node[k]] = k + 1;
+        for (int k = 0; k < 3 * c->triangle_count; k++) {
+            if (place_of[c->triangle[k]] == 0) continue; /* a triangle that only other nodes meet */
+            item[links] = place_of[c->triangle[k]] - 1;
+            place[links++] = k / 3;
+        }
+        status = contact_patches(c->node_count, c->triangle_count, links, item, place, CONTACT_GROUP, order);
+        if (!status) status = contact_groups_create(groups, items, order);
+    }
+    memory_free(place_of);
+    memory_free(item);
+    memory_free(place);
+    memory_free(order);
+    return status;
+}
+
+static int groups_create(ContactRun *run, int nodes)
+{
+    const ContactInterface *c = run->contact;
+    const ContactItems node = {c->node_count, 1, c->node, c->node_side, c->node_body, c->node_radius, NULL, NULL},
+                       triangle = {c->triangle_count, 3,
+                                   c->triangle,       c->triangle_side,
+                                   c->triangle_body,  c->triangle_radius,
+                                   c->triangle_shell, c->triangle_fourth},
+                       line = {c->edge_count,   2,   c->edge, c->edge_side, run->line_body, c->edge_radius,
+                               run->line_shell, NULL};
+    for (int e = 0; e < c->edge_count; e++) {
+        run->line_body[e] = c->triangle_body[c->edge_triangle[2 * e]];
+        run->line_shell[e] = c->triangle_shell[c->edge_triangle[2 * e]];
+    }
+    if (group_nodes(&run->nodes, c, &node, nodes) || group_items(&run->triangles, &triangle, nodes) ||
+        group_items(&run->lines, &line, nodes))
+        return -1;
+    for (int k = 0; k < run->lines.count * CONTACT_GROUP; k++) {
+        int32_t e = run->lines.lanes[k / CONTACT_GROUP].item[k % CONTACT_GROUP];
+        if (e >= 0) run->line_group[e] = k / CONTACT_GROUP;
+    }
+    return 0;
 }
 
 static int run_create(ContactLoop *loop, int i)
@@ -121,15 +192,21 @@ static int run_create(ContactLoop *loop, int i)
     run->contact = c;
     run->force = loop->resultant + 3 * (ptrdiff_t)i;
     run->plane = memory_alloc(4 * triangles, sizeof(double));
-    run->used = memory_alloc(triangles, 1);
-    run->calm = memory_alloc(triangles, 1);
-    if (!run->plane || !run->used || !run->calm) return -1;
+    run->line_body = memory_alloc((size_t)c->edge_count + 1, sizeof *run->line_body);
+    run->line_shell = memory_alloc((size_t)c->edge_count + 1, sizeof *run->line_shell);
+    run->line_group = memory_alloc((size_t)c->edge_count + 1, sizeof *run->line_group);
+    if (!run->plane || !run->line_body || !run->line_shell || !run->line_group) return -1;
     return list_create(&run->faces, c->node_count) || list_create(&run->edges, c->edge_count) ||
-                   contact_groups_create(&run->nodes, loop->model, c->node_count, 1, c->node) ||
-                   contact_groups_create(&run->triangles, loop->model, c->triangle_count, 3, c->triangle) ||
-                   contact_groups_create(&run->lines, loop->model, c->edge_count, 2, c->edge)
+                   groups_create(run, loop->model->node_count)
                ? -1
                : 0;
+}
+
+static const NearKernels *choose_kernels(void)
+{
+    const KernelTable *table = kernels_select(NULL);
+    int level = table ? table->level : 2;
+    return level == 4 ? &near_kernels_v4 : level == 3 ? &near_kernels_v3 : &near_kernels_v2;
 }
 
 ContactLoop *contact_create(const Model *model, State *state, double *rows, const double *pressure)
@@ -138,6 +215,7 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     if (!loop) return NULL;
     loop->model = model;
     loop->state = state;
+    loop->kernels = choose_kernels();
     loop->rows = rows;
     loop->pressure = pressure;
     loop->corner = rows + CONTACT_ROW * (ptrdiff_t)model->contact_row;

@@ -1,5 +1,6 @@
 /* Edges against edges: where two lines cross, on which side the first passes the second. */
 #include "contact/contact_law.h"
+#include "contact/contact_sides.h"
 
 /* Edges at a smaller angle (sine squared) are as good as parallel: their nodes do the work. */
 #define PARALLEL 1e-3
@@ -15,9 +16,8 @@ typedef struct Crossing {
     double s, t;      /* places of the crossing on the edges */
 } Crossing;
 
-/* False if they do not cross within their lengths or are farther apart than reach; *bound is then less than their
- * distance. */
-static inline bool cross_edges(Crossing *c, const double *const p[4], double reach, double slack, double *bound)
+/* False if they do not cross within their lengths or are farther apart than reach. */
+static inline bool cross_edges(Crossing *c, const double *const p[4], double reach, double slack)
 {
     double u[3], w[3], r[3], n[3];
     for (int k = 0; k < 3; k++) {
@@ -27,26 +27,13 @@ static inline bool cross_edges(Crossing *c, const double *const p[4], double rea
     }
     vector3_cross(u, w, n);
     double uu = vector3_dot(u, u), ww = vector3_dot(w, w), square = vector3_dot(n, n), height = vector3_dot(n, r);
-    if (!(square > PARALLEL * uu * ww)) {
-        /* from the first's start to the second's line, less what the first may come nearer by */
-        double along = ww > 0.0 ? vector3_dot(w, r) / ww : 0.0, away = 0.0;
-        for (int k = 0; k < 3; k++) away += (r[k] - along * w[k]) * (r[k] - along * w[k]);
-        *bound = sqrt(away) - sqrt(PARALLEL * uu);
-        return false;
-    }
-    *bound = fabs(height) / sqrt(square);
-    if (*bound > reach) return false;
+    if (!(square > PARALLEL * uu * ww) || fabs(height) > reach * sqrt(square)) return false;
     double uw = vector3_dot(u, w), ur = vector3_dot(u, r), wr = vector3_dot(w, r), inverse = 1.0 / square;
     c->s = (uw * wr - ww * ur) * inverse;
     c->t = (uu * wr - uw * ur) * inverse;
     double over_s = c->s < 0.0 ? -c->s : c->s > 1.0 ? c->s - 1.0 : 0.0;
     double over_t = c->t < 0.0 ? -c->t : c->t > 1.0 ? c->t - 1.0 : 0.0;
-    if (over_s > slack || over_t > slack) {
-        /* an end's distance from the other line: (excess length x sine)^2 + height^2 */
-        double a = over_s * over_s * square / ww, b = over_t * over_t * square / uu;
-        *bound = sqrt(*bound * *bound + (a > b ? a : b));
-        return false;
-    }
+    if (over_s > slack || over_t > slack) return false;
     c->s = c->s < 0.0 ? 0.0 : c->s > 1.0 ? 1.0 : c->s;
     c->t = c->t < 0.0 ? 0.0 : c->t > 1.0 ? 1.0 : c->t;
     double length = 1.0 / sqrt(square);
@@ -71,42 +58,41 @@ static inline void edge_ends(const ContactInterface *c, const double *x, int e, 
     }
 }
 
-/* How far both edges together have gone, and may go in this step. */
-static double edge_way(const ContactRun *run, int e, int f)
+/* How fast two edges may come nearer at most. */
+static double closing_speed(const double *v, const int32_t *a, const int32_t *b)
 {
-    return run->lines.way[e / CONTACT_GROUP] + run->lines.way[f / CONTACT_GROUP];
+    double most = 0.0;
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++) {
+            double u[3];
+            vector3_subtract(v + 3 * (ptrdiff_t)a[i], v + 3 * (ptrdiff_t)b[k], u);
+            most = fmax(most, vector3_dot(u, u));
+        }
+    return sqrt(most);
 }
 
-static double edge_step(const ContactLoop *loop, const ContactRun *run, int e, int f)
-{
-    return (run->lines.speed[e / CONTACT_GROUP] + run->lines.speed[f / CONTACT_GROUP]) * loop->step.longer;
-}
-
-static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int e, int32_t pair, ContactSums *sums,
+static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int e, int f, ContactSums *sums,
                       ContactForce *forces, ContactPassages *passages)
 {
     const ContactInterface *c = run->contact;
-    ContactPairs *pairs = &run->edges.pairs;
-    ContactMemory fresh = {0}, *m = contact_recall(&run->edges, e, pair);
+    ContactMemory fresh = {0}, *m = contact_recall(&run->edges, e, f);
+    if (!m && !contact_edges_meet(loop->model, c, e, f)) return;
     if (!m) m = &fresh;
-    int f = pairs->other[pair];
     const int32_t *a = c->edge + 2 * (ptrdiff_t)e, *b = c->edge + 2 * (ptrdiff_t)f;
     const double *p[4];
-    double full = c->edge_radius[e] + c->edge_radius[f], thickness = run->thinness * full, bound;
-    double reach = thickness + edge_step(loop, run, e, f) + (m->side ? law->deepest : 0.0);
+    double thickness = run->thinness * (c->edge_radius[e] + c->edge_radius[f]);
+    double reach = thickness + closing_speed(loop->state->v, a, b) * loop->step.longer + (m->side ? law->deepest : 0.0);
     Crossing cross;
     edge_ends(c, loop->state->x, e, f, p);
-    if (!cross_edges(&cross, p, reach, m->side ? SLACK : 0.0, &bound)) {
+    if (!cross_edges(&cross, p, reach, m->side ? SLACK : 0.0)) {
         if (m->side) note_ended(passages, e, f, m);
-        contact_forget(&run->edges, e, pair);
-        pairs->wake[pair] = edge_way(run, e, f) + bound - full;
+        *m = (ContactMemory){0};
         return;
     }
     ContactTouch t = {.node = {a[0], a[1], b[0], b[1]},
                       .weight = {1.0 - cross.s, cross.s, cross.t - 1.0, -cross.t},
                       .thickness = thickness,
                       .stiffness = c->stiffness[c->edge_side[e] == CONTACT_SIDE_B]};
-    pairs->wake[pair] = 0.0;
     contact_speed(law, &t);
     double before = cross.height - law->before * vector3_dot(t.speed, cross.normal);
     /* the lines' normal turns over where they are parallel: a pair in contact knows its direction */
@@ -118,36 +104,27 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     ContactForce *out = &forces[sums->count];
     int counts = contact_push(law, &t, m, out, sums);
     if (m->side) memcpy(m->direction, t.direction, sizeof m->direction);
-    if (m != &fresh && m->side == 0) pairs->slot[pair] = 0;
-    if (m == &fresh && m->side != 0) contact_keep(&run->edges, e, pair, m);
+    if (m == &fresh && m->side != 0) contact_keep(&run->edges, e, f, m);
     if (!counts) return;
     sums->count++;
     double sign = c->edge_side[e] & CONTACT_SIDE_A ? 1.0 : -1.0;
     for (int k = 0; k < 3; k++) sums->force[k] += sign * out->force[k];
 }
 
-/* Place of a pair of edges in the list, -1 if it is none; *swapped if the list has it the other way round. */
-static int32_t find_pair(const ContactPairs *pairs, int e, int f, bool *swapped)
-{
-    *swapped = f < e;
-    int owner = *swapped ? f : e, other = *swapped ? e : f;
-    for (int32_t p = pairs->start[owner]; p < pairs->start[owner + 1]; p++)
-        if (pairs->other[p] == other) return p;
-    return -1;
-}
-
 /* Gives a memory to the pair e, f if they cross and know nothing yet; its side by the direction of the force. */
 static bool leave_to(ContactLoop *loop, ContactRun *run, const ContactPassage *ended, int e, int f)
 {
-    ContactPairs *pairs = &run->edges.pairs;
+    const unsigned char *sharp = loop->state->contact_sharp + run->contact->first_edge;
     const double *p[4];
     Crossing cross;
-    double bound;
-    bool swapped;
-    int32_t pair = e == f ? -1 : find_pair(pairs, e, f, &swapped);
-    if (pair < 0 || pairs->slot[pair]) return false;
-    edge_ends(run->contact, loop->state->x, swapped ? f : e, swapped ? e : f, p);
-    if (!cross_edges(&cross, p, INFINITY, SLACK, &bound)) return false;
+    bool swapped = run->line_group[f] < run->line_group[e] || (run->line_group[f] == run->line_group[e] && f < e);
+    int owner = swapped ? f : e, other = swapped ? e : f;
+    if (e == f || !sharp[e] || !sharp[f] || contact_recall(&run->edges, owner, other)) return false;
+    if (!contact_edges_meet(loop->model, run->contact, owner, other)) return false;
+    edge_ends(run->contact, loop->state->x, owner, other, p);
+    /* it has slid along: the gap is about what it was */
+    double thickness = run->thinness * (run->contact->edge_radius[e] + run->contact->edge_radius[f]);
+    if (!cross_edges(&cross, p, thickness + fabs(ended->memory.gap), SLACK)) return false;
     double sign = swapped ? -1.0 : 1.0;
     ContactMemory m = ended->memory;
     m.side = sign * vector3_dot(ended->memory.direction, cross.normal) >= 0.0 ? 1 : -1;
@@ -155,8 +132,7 @@ static bool leave_to(ContactLoop *loop, ContactRun *run, const ContactPassage *e
         m.direction[k] = m.side * cross.normal[k];
         m.friction[k] *= sign;
     }
-    contact_keep(&run->edges, swapped ? f : e, pair, &m);
-    pairs->wake[pair] = run->edges.idle[(swapped ? f : e) / CONTACT_CHUNK] = 0.0;
+    contact_keep(&run->edges, owner, other, &m);
     return true;
 }
 
@@ -177,7 +153,7 @@ void contact_pass_on(ContactLoop *loop, ContactRun *run)
 {
     enum { AROUND = 32 };
     int32_t first[AROUND], second[AROUND];
-    for (int k = 0; k < run->edges.chunk_count; k++)
+    for (int k = 0; k < run->edges.group_count; k++)
         for (int i = 0; i < run->edges.passages[k].count; i++) {
             const ContactPassage *ended = &run->edges.passages[k].ended[i];
             int m = edges_around(run->contact, ended->first, first, AROUND);
@@ -187,23 +163,26 @@ void contact_pass_on(ContactLoop *loop, ContactRun *run)
         }
 }
 
-void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int chunk)
+void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int group, int thread)
 {
     ContactList *list = &run->edges;
-    int first = chunk * CONTACT_CHUNK,
-        end = first + CONTACT_CHUNK < list->owner_count ? first + CONTACT_CHUNK : list->owner_count;
-    ContactSums *sums = &list->sums[chunk];
-    ContactPassages *passages = &list->passages[chunk];
+    ContactPart *part = &loop->parts[thread];
+    ContactSums *sums = &list->sums[group];
+    ContactPassages *passages = &list->passages[group];
+    const ContactLanes *lanes = &run->lines.lanes[group];
+    int start[CONTACT_GROUP + 1];
     *sums = (ContactSums){0};
+    list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
     passages->count = 0;
-    if (list->idle[chunk] > loop->motion + 2.0 * loop->fastest * loop->step.longer) return;
-    bool awake = false;
-    for (int e = first; e < end; e++)
-        for (int32_t pair = list->pairs.start[e]; pair < list->pairs.start[e + 1]; pair++) {
-            int f = list->pairs.other[pair];
-            if (list->pairs.wake[pair] > edge_way(run, e, f) + edge_step(loop, run, e, f)) continue;
-            awake = true;
-            meet_pair(loop, run, law, e, pair, sums, list->forces + list->pairs.start[first], passages);
-        }
-    if (!awake) list->idle[chunk] = contact_rest(list, first, end, loop->motion, run->lines.way, run->lines.way);
+    contact_find_near(loop, run, true, group, thread);
+    if (contact_sort_near(part, list, lanes, start)) part->failed = true;
+    if (part->failed || start[CONTACT_GROUP] == 0) return;
+    ContactForce *forces = contact_force_room(part, (size_t)start[CONTACT_GROUP]);
+    if (!forces) return;
+    for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) {
+        for (int i = start[k]; i < start[k + 1]; i++)
+            meet_pair(loop, run, law, lanes->item[k], part->other[i], sums, forces, passages);
+        if (start[k + 1] > start[k]) contact_count_held(list, lanes->item[k]);
+    }
+    part->force_count += (size_t)sums->count;
 }

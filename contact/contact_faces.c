@@ -2,13 +2,14 @@
  * what it is pushed by. */
 #include "contact/contact_geometry.h"
 #include "contact/contact_law.h"
+#include "contact/contact_sides.h"
 
 enum { MOST_NEAR = 32 }; /* triangles near one node that are looked at in one cycle */
 
 /* One candidate of a node that is near or in contact. */
 typedef struct NearFace {
     ClosestPoint at;
-    int32_t pair; /* place in the list */
+    ContactMemory *memory; /* NULL: none */
     int32_t triangle;
     bool rim; /* the closest point is on the surface's rim */
     bool kept;
@@ -55,12 +56,13 @@ static bool touch_each_other(const NearFace *f, const NearFace *g)
 }
 
 /* A node that has slid from one triangle onto the next keeps what it remembers. */
-static void inherit(unsigned char *slot, const NearFace *near, int count, int heir)
+static void inherit(NearFace *near, int count, int heir)
 {
     for (int i = 0; i < count; i++) {
-        if (near[i].kept || slot[near[i].pair] == 0 || !touch_each_other(&near[i], &near[heir])) continue;
-        slot[near[heir].pair] = slot[near[i].pair];
-        slot[near[i].pair] = 0;
+        if (near[i].kept || !near[i].memory || !touch_each_other(&near[i], &near[heir])) continue;
+        near[heir].memory = near[i].memory;
+        near[heir].memory->pair[1] = near[heir].triangle;
+        near[i].memory = NULL;
         return;
     }
 }
@@ -131,41 +133,42 @@ static bool take_side(const ContactLaw *law, const ContactInterface *c, const do
     return true;
 }
 
-/* The candidates of one node that may touch in this step; the others sleep until they may. */
-static int look_around(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, NearFace *near, bool *awake)
+/* How fast a node and a triangle may come nearer at most. */
+static double closing_speed(const double *v, int32_t node, const int32_t corner[3])
+{
+    double most = 0.0;
+    for (int i = 0; i < 3; i++) {
+        double u[3];
+        vector3_subtract(v + 3 * (ptrdiff_t)corner[i], v + 3 * (ptrdiff_t)node, u);
+        most = fmax(most, vector3_dot(u, u));
+    }
+    return sqrt(most);
+}
+
+/* Of the triangles [first, end) of others those that the node may touch in this step. */
+static int look_around(const ContactLoop *loop, ContactRun *run, int i, const int32_t *other, int others,
+                       NearFace *near)
 {
     const ContactInterface *c = run->contact;
-    const ContactPairs *pairs = &run->faces.pairs;
     const double *x = loop->state->x, *at = x + 3 * (ptrdiff_t)c->node[i];
-    double own_way = run->nodes.way[i / CONTACT_GROUP], own_speed = run->nodes.speed[i / CONTACT_GROUP];
-    double deep = run->faces.depth[i]; /* behind a surface: the next triangle may be as far away */
+    double depth = run->faces.depth[i]; /* behind a surface: the next triangle may be as far away */
     int count = 0;
-    for (int32_t p = pairs->start[i]; p < pairs->start[i + 1]; p++) {
-        int32_t t = pairs->other[p];
-        double way = own_way + run->triangles.way[t / CONTACT_GROUP];
-        double step = (own_speed + run->triangles.speed[t / CONTACT_GROUP]) * loop->step.longer + deep;
-        if (pairs->wake[p] > way + step) continue;
-        *awake = true;
+    for (int k = 0; k < others; k++) {
+        int32_t t = other[k];
         NearFace *f = &near[count];
-        double thickness = c->node_radius[i] + c->triangle_radius[t], reach = run->thinness * thickness + step, bound;
-        const double *plane = run->plane + 4 * (ptrdiff_t)t;
-        double height = fabs(plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] - plane[3]);
-        if (pairs->slot[p]) {
-            reach += law->deepest;
-        } else if (height > reach) {
-            pairs->wake[p] = way + height - thickness;
-            continue;
-        }
-        f->pair = p;
+        double thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[t]), bound;
+        f->memory = contact_recall(&run->faces, i, t);
         f->triangle = t;
         memcpy(f->at.corner, c->triangle + 3 * (ptrdiff_t)t, sizeof f->at.corner);
-        if (closest_point(&f->at, at, x, reach, &bound) && count < MOST_NEAR - 1) {
-            pairs->wake[p] = 0.0;
-            count++;
+        double reach = thickness + closing_speed(loop->state->v, c->node[i], f->at.corner) * loop->step.longer + depth;
+        if (f->memory)
+            reach += contact_deepest(c);
+        else if (!contact_node_meets(loop->model, c, i, t))
             continue;
-        }
-        contact_forget(&run->faces, i, p);
-        pairs->wake[p] = way + bound - thickness;
+        if (closest_point(&f->at, at, x, reach, &bound) && count < MOST_NEAR - 1)
+            count++;
+        else if (f->memory)
+            *f->memory = (ContactMemory){0};
     }
     return count;
 }
@@ -183,8 +186,7 @@ static void meet_face(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
                       ContactForce *forces)
 {
     const ContactInterface *c = run->contact;
-    unsigned char *slot = &run->faces.pairs.slot[f->pair];
-    ContactMemory fresh = {0}, *m = contact_recall(&run->faces, i, f->pair);
+    ContactMemory fresh = {0}, *m = f->memory;
     const unsigned char *rim = c->corner_rim + 3 * (ptrdiff_t)f->triangle;
     ContactTouch t = {.node = {c->node[i], f->at.corner[0], f->at.corner[1], f->at.corner[2]},
                       .weight = {1.0, -f->at.weight[0], -f->at.weight[1], -f->at.weight[2]},
@@ -195,47 +197,55 @@ static void meet_face(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     f->rim = f->at.feature != 7;
     for (int a = 0; a < 3; a++) f->rim = f->rim && (!(f->at.feature & 1 << a) || rim[a]);
     if (!f->kept || !take_side(law, c, loop->state->x, f, m ? m : &fresh, &t)) {
-        contact_forget(&run->faces, i, f->pair);
+        if (m) *m = (ContactMemory){0};
         return;
     }
     ContactForce *out = &forces[sums->count];
     int counts = contact_push(law, &t, m ? m : &fresh, out, sums);
-    if (m && m->side == 0) *slot = 0;
     if (m && m->side != 0 && -m->gap > run->faces.depth[i]) run->faces.depth[i] = -m->gap;
-    if (!m && fresh.side != 0) contact_keep(&run->faces, i, f->pair, &fresh);
+    if (!m && fresh.side != 0) contact_keep(&run->faces, i, f->triangle, &fresh);
     if (!counts) return;
     sums->count++;
     double sign = c->node_side[i] & CONTACT_SIDE_A ? 1.0 : -1.0;
     for (int a = 0; a < 3; a++) sums->force[a] += sign * out->force[a];
 }
 
-/* One node: all its candidates that are awake; false if none is. */
-static bool meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, ContactSums *sums,
-                      ContactForce *forces)
+/* One node with what is near it or in contact with it. */
+static void meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, const int32_t *other,
+                      int others, ContactSums *sums, ContactForce *forces)
 {
-    unsigned char *slot = run->faces.pairs.slot;
     NearFace near[MOST_NEAR];
-    bool awake = false;
-    int count = look_around(loop, run, law, i, near, &awake);
+    int count = look_around(loop, run, i, other, others, near);
     run->faces.depth[i] = 0.0;
-    if (count == 0) return awake;
     keep_nearest(near, count);
     for (int k = 0; k < count; k++)
-        if (near[k].kept && slot[near[k].pair] == 0) inherit(slot, near, count, k);
+        if (near[k].kept && !near[k].memory) inherit(near, count, k);
     for (int k = 0; k < count; k++) meet_face(loop, run, law, i, &near[k], sums, forces);
-    return true;
+    contact_count_held(&run->faces, i);
 }
 
-void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int chunk)
+void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int group, int thread)
 {
     ContactList *list = &run->faces;
-    int first = chunk * CONTACT_CHUNK,
-        end = first + CONTACT_CHUNK < list->owner_count ? first + CONTACT_CHUNK : list->owner_count;
-    ContactSums *sums = &list->sums[chunk];
+    ContactPart *part = &loop->parts[thread];
+    ContactSums *sums = &list->sums[group];
+    const ContactLanes *lanes = &run->nodes.lanes[group];
+    int start[CONTACT_GROUP + 1];
+    contact_find_near(loop, run, false, group, thread);
     *sums = (ContactSums){0};
-    if (list->idle[chunk] > loop->motion + 2.0 * loop->fastest * loop->step.longer) return;
-    bool awake = false;
-    for (int i = first; i < end; i++)
-        awake |= meet_node(loop, run, law, i, sums, list->forces + list->pairs.start[first]);
-    if (!awake) list->idle[chunk] = contact_rest(list, first, end, loop->motion, run->nodes.way, run->triangles.way);
+    list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
+    list->deepest[group] = 0.0;
+    if (contact_sort_near(part, list, lanes, start)) part->failed = true;
+    if (part->failed || start[CONTACT_GROUP] == 0) return;
+    ContactForce *forces = contact_force_room(part, (size_t)CONTACT_GROUP * MOST_NEAR);
+    if (!forces) return;
+    for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) {
+        int i = lanes->item[k];
+        if (start[k + 1] == start[k])
+            list->depth[i] = 0.0;
+        else
+            meet_node(loop, run, law, i, part->other + start[k], start[k + 1] - start[k], sums, forces);
+        list->deepest[group] = fmax(list->deepest[group], list->depth[i]);
+    }
+    part->force_count += (size_t)sums->count;
 }

@@ -47,6 +47,12 @@ typedef struct ContactTouch {
     int side;            /* for a new pair */
 } ContactTouch;
 
+/* Penetration at which a pair is given up. */
+static inline double contact_deepest(const ContactInterface *c)
+{
+    return 10.0 * c->thickest > 0.5 * c->longest_side ? 10.0 * c->thickest : 0.5 * c->longest_side;
+}
+
 static inline void contact_speed(const ContactLaw *law, ContactTouch *t)
 {
     for (int k = 0; k < 3; k++) t->speed[k] = 0.0;

@@ -6,15 +6,15 @@
 
 #include "contact/contact_grid.h"
 #include "contact/contact_motion.h"
+#include "contact/near_kernels.h"
 #include "elements/kernels.h"
 #include "solver/model.h"
 #include "solver/state.h"
 #include "solver/team.h"
 
 enum {
-    CONTACT_ROW = 8,    /* doubles of a row of corner sums, elements/kernels.h: force, load, four zeros */
-    CONTACT_SLOTS = 8,  /* pairs that a node or an edge can be in contact by */
-    CONTACT_CHUNK = 64, /* nodes or edges of one fixed piece of work */
+    CONTACT_ROW = 8,   /* doubles of a row of corner sums, elements/kernels.h: force, load, four zeros */
+    CONTACT_SLOTS = 8, /* pairs that a node or an edge can be in contact by */
 };
 
 /* One pair that touches, or will in the coming step: what its four nodes get. */
@@ -33,97 +33,93 @@ typedef struct ContactPassage {
 
 enum { CONTACT_PASSAGES = 8 };
 
-/* Passages of one chunk of edges; more than fit are left to themselves. */
+/* Passages of one group of edges; more than fit are left to themselves. */
 typedef struct ContactPassages {
     int count;
     ContactPassage ended[CONTACT_PASSAGES];
 } ContactPassages;
 
-/* Sums over one chunk. */
+/* Where the forces of one group of owners are: sums count of a thread's, from first on. */
+typedef struct ContactPiece {
+    int32_t thread;
+    int32_t first;
+} ContactPiece;
+
+/* Sums over one group of owners. */
 typedef struct ContactSums {
     double force[3]; /* on side A [F] */
     double power;    /* of the contact forces on the velocities at n - 1/2 [F L/T] */
-    int count;       /* entries of the chunk in forces */
+    int count;       /* forces of the group */
     int lost;        /* pairs that went deeper than the limit and were let go */
     int fast;        /* pairs that met faster than one thickness in a step */
     int32_t fast_node, lost_node;
 } ContactSums;
 
-/* Candidate pairs: for each node its triangles, for each edge its edges, ascending. */
-typedef struct ContactPairs {
-    int32_t *start;      /* (owner_count + 1) */
-    int32_t *other;      /* (count) */
-    double *wake;        /* ways of both groups together from which on the pair may touch (count) [L] */
-    unsigned char *slot; /* of the owner's memories, from 1; 0 none (count) */
-    size_t count, start_capacity, other_capacity, wake_capacity, slot_capacity;
-} ContactPairs;
+/* Two groups that may meet: owners of one, others of the second. */
+typedef struct ContactGroupPair {
+    double slack; /* by so much they may yet come nearer before two of their items touch [L] */
+    int32_t other;
+} ContactGroupPair;
 
-/* Candidates of one kind and what becomes of them in a cycle. */
+/* Pairs of one kind and what becomes of them in a cycle. */
 typedef struct ContactList {
-    int owner_count, chunk_count;
-    ContactMemory *memory;      /* of each owner (owner_count x CONTACT_SLOTS); free ones have side 0 */
-    double *depth;              /* how deep each node was behind a surface at its last look (owner_count) [L] */
-    ContactPairs pairs, before; /* before: those of the search before, whose room the next one takes */
-    ContactForce *forces;       /* of chunk c from start[c CONTACT_CHUNK] on (count) */
-    size_t force_capacity;
-    ContactSums *sums;         /* (chunk_count) */
-    double *idle;              /* ContactLoop.motion from which on a pair of the chunk may touch (chunk_count) [L] */
-    ContactPassages *passages; /* of edges (chunk_count) */
+    int owner_count, group_count;
+    ContactMemory *memory;  /* of each owner (owner_count x CONTACT_SLOTS); free ones have side 0 */
+    unsigned char *held;    /* memories of each owner (owner_count) */
+    double *depth;          /* how deep each node was behind a surface at its last look (owner_count) [L] */
+    double *deepest;        /* of each group (group_count) [L] */
+    int32_t *start;         /* of each group in pair (group_count + 1) */
+    ContactGroupPair *pair; /* ascending (start[group_count]) */
+    int32_t *next_start;    /* workspace of the search: the new list */
+    ContactGroupPair *next;
+    size_t pair_capacity, next_capacity;
+    ContactPiece *pieces;      /* (group_count) */
+    ContactSums *sums;         /* (group_count) */
+    ContactPassages *passages; /* of edges (group_count) */
 } ContactList;
 
 /* What the owner's pair remembers; NULL if nothing. */
-static inline ContactMemory *contact_recall(const ContactList *list, int owner, int32_t pair)
+static inline ContactMemory *contact_recall(const ContactList *list, int owner, int32_t other)
 {
-    int slot = list->pairs.slot[pair];
-    return slot ? &list->memory[(ptrdiff_t)owner * CONTACT_SLOTS + slot - 1] : NULL;
-}
-
-static inline void contact_forget(ContactList *list, int owner, int32_t pair)
-{
-    ContactMemory *m = contact_recall(list, owner, pair);
-    if (m) *m = (ContactMemory){0};
-    list->pairs.slot[pair] = 0;
+    ContactMemory *of_owner = list->memory + (ptrdiff_t)owner * CONTACT_SLOTS;
+    for (int k = 0; list->held[owner] && k < CONTACT_SLOTS; k++)
+        if (of_owner[k].side && of_owner[k].pair[1] == other) return &of_owner[k];
+    return NULL;
 }
 
 /* Gives a pair a memory; one too many is let go. */
-static inline void contact_keep(ContactList *list, int owner, int32_t pair, const ContactMemory *memory)
+static inline void contact_keep(ContactList *list, int owner, int32_t other, const ContactMemory *memory)
 {
     ContactMemory *of_owner = list->memory + (ptrdiff_t)owner * CONTACT_SLOTS;
     for (int k = 0; k < CONTACT_SLOTS; k++) {
         if (of_owner[k].side) continue;
         of_owner[k] = *memory;
+        of_owner[k].pair[1] = other;
+        list->held[owner]++;
         if (-memory->gap > list->depth[owner]) list->depth[owner] = -memory->gap;
-        list->pairs.slot[pair] = (unsigned char)(k + 1);
         return;
     }
 }
 
-/* Lets the owners [first, end) of a chunk without a pair that is awake rest until one of theirs may be; ways of the
- * groups of owners and others. */
-static inline double contact_rest(const ContactList *list, int first, int end, double motion, const double *own_way,
-                                  const double *other_way)
+/* Counts an owner's memories. */
+static inline void contact_count_held(ContactList *list, int owner)
 {
-    const ContactPairs *pairs = &list->pairs;
-    double least = INFINITY;
-    for (int i = first; i < end; i++)
-        for (int32_t p = pairs->start[i]; p < pairs->start[i + 1]; p++) {
-            double left = pairs->wake[p] - own_way[i / CONTACT_GROUP] - other_way[pairs->other[p] / CONTACT_GROUP];
-            least = left < least ? left : least;
-        }
-    return motion + least;
+    int count = 0;
+    for (int k = 0; k < CONTACT_SLOTS; k++) count += list->memory[(ptrdiff_t)owner * CONTACT_SLOTS + k].side != 0;
+    list->held[owner] = (unsigned char)count;
 }
 
 /* One interface in the loop. */
 typedef struct ContactRun {
     const ContactInterface *contact;
     ContactList faces, edges;
-    ContactGroups nodes, triangles, lines; /* motion of the owners of faces, of triangles, and of edges */
-    double *plane;       /* unit normal and offset of each triangle in candidate lists, at x_n (triangle_count x 4) */
-    unsigned char *used; /* triangles in candidate lists (triangle_count) */
-    unsigned char *calm; /* workspace of the search: triangles with three neighbours nearly in their plane */
-    bool alive, asleep;  /* asleep: it is not alive and has forgotten */
-    double thinness;     /* factor on the radii, of LCIDAB */
-    double *force;       /* on side A at t_n, in resultant [F] */
+    ContactGroups nodes, triangles, lines; /* owners of faces, triangles, and edges */
+    int32_t *line_body, *line_shell;       /* of the first triangle at each edge (edge_count) */
+    int32_t *line_group;                   /* of each edge; the edge of the lower group owns a pair (edge_count) */
+    double *plane;      /* unit normal and offset of each triangle at the last search (triangle_count x 4) */
+    bool alive, asleep; /* asleep: it is not alive and has forgotten */
+    double thinness;    /* factor on the radii, of LCIDAB */
+    double *force;      /* on side A at t_n, in resultant [F] */
 } ContactRun;
 
 /* Coefficients of a cycle. */
@@ -132,12 +128,18 @@ typedef struct ContactStep {
     double longer;             /* the longer of the two steps */
 } ContactStep;
 
-/* What one thread finds: candidates of its share of the owners, and its workspace. */
+/* What one thread finds and does: group pairs of its share in a search, forces of its groups in a cycle. */
 typedef struct ContactPart {
-    int32_t *other;
-    double *height; /* of a node over the triangles found */
-    size_t count, other_capacity, height_capacity;
+    ContactGroupPair *pair;
+    size_t pair_count, pair_capacity;
     ContactFound found;
+    ContactForce *force;
+    size_t force_count, force_capacity;
+    ContactNearby *near; /* pairs of one group of owners that may touch, in the order of its group pairs */
+    size_t near_count, near_capacity;
+    int32_t *other; /* the same, of each owner in turn, with room for those in contact */
+    size_t other_capacity;
+    ContactLook look;
     bool failed; /* no memory */
 } ContactPart;
 
@@ -152,13 +154,13 @@ typedef struct ContactLoop {
     int motion_count;
     unsigned char *written; /* chunks of nodes whose rows of corner are not zero */
     double fastest;         /* largest speed now */
-    double motion; /* twice the sum of the largest speed times the step: no two nodes came nearer by more [L] */
     double power, power_after;
     bool search_due, pending;
     ContactStep step;
     ContactGrid grid;
     ContactBox *box;    /* workspace of the search */
     ContactPart *parts; /* by thread (BILLOW_MAX_THREADS) */
+    const NearKernels *kernels;
     size_t box_capacity;
     double *room; /* at the last search: (w dt)^2 that contact may add at a node in direction d is 1/(d . room d); xx yy
                    * zz xy yz zx (node_count x 6) */
@@ -176,7 +178,6 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
 void contact_free(ContactLoop *loop);
 
 /* The stages. */
-void contact_planes(ContactLoop *loop, int thread, int threads); /* all, at x_n: planes of the triangles */
 /* all: search where it is due; team: whose threads these are */
 void contact_prepare(ContactLoop *loop, double time, double before, double next, int thread, Team *team);
 void contact_forces(ContactLoop *loop, int thread, int threads);                 /* all: narrow phase and forces */
@@ -187,27 +188,38 @@ void contact_sum(ContactLoop *loop);   /* thread 0: partial sums of the two befo
 void contact_store(ContactLoop *loop); /* thread 0: memory and loads into the State */
 
 /* Inside. */
-/* All threads: new candidate lists at State.contact_searched. */
+/* All threads: new pairs of groups at State.contact_searched. */
 void contact_search(ContactLoop *loop, int thread, Team *team);
 
-/* The groups of one contact have moved for a time at the speeds of loop->motions. */
-void contact_move_groups(const ContactLoop *loop, ContactRun *run, double time);
-
-/* Planes of triangles [first, end) at positions x; all: of unused ones too. */
-void contact_fill_planes(ContactRun *run, const double *x, int first, int end, bool all);
+/* Velocities of a thread's share of all groups, now. */
+void contact_follow_groups(ContactLoop *loop, int thread, int threads);
 
 /* Fills room; elements, rest: (w dt)^2 that elements may have, and that they leave in their plane. */
 void contact_fill_room(ContactLoop *loop, const double *x, double elements, double rest);
 
 struct ContactLaw;
-void contact_meet_faces(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int chunk);
-void contact_meet_edges(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int chunk);
+void contact_meet_faces(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int group, int thread);
+void contact_meet_edges(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int group, int thread);
+
+/* Looks at what a group of owners may touch in this step: fills near of the thread's part (contact/contact_near.c). */
+void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread);
+
+/* The others of each owner in near and in memory, ascending: those of lane k of the group are other[start[k]] to
+ * other[start[k + 1]] of the part. -1 without memory. */
+int contact_sort_near(ContactPart *part, const ContactList *list, const ContactLanes *lanes,
+                      int start[CONTACT_GROUP + 1]);
+
+/* Room for more forces of a thread; NULL without memory. */
+ContactForce *contact_force_room(ContactPart *part, size_t more);
+
+/* All pairs of groups are awake: how far they have gone is not known. */
+void contact_awake(ContactList *list);
 
 /* Edge pairs that have ended leave their memory to the pair beside them that the crossing has slid onto. Thread 0. */
 void contact_pass_on(ContactLoop *loop, ContactRun *run);
 
-/* New candidate lists of all contacts at State.contact_searched, by all threads of the team; team NULL: by this thread
- * alone. Memories of pairs stay with them. Without memory out_of_memory is set and the lists are empty. */
+/* New pairs of groups of all contacts at State.contact_searched, by all threads of the team; team NULL: by this thread
+ * alone. Without memory out_of_memory is set and the lists are empty. */
 void contact_find_pairs(ContactLoop *loop, int thread, Team *team);
 
 #endif

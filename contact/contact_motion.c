@@ -2,55 +2,126 @@
 
 #include <math.h>
 
+#include "contact/contact_sides.h"
 #include "solver/memory.h"
 
-/* Adds a chunk that the group does not have yet; places: room for it. */
-static int add_chunk(int32_t *chunk, int count, int32_t added)
+/* Adds a node that the group does not have yet; node: room for it. */
+static int add_node(int32_t *node, int count, int32_t added)
 {
     for (int k = 0; k < count; k++)
-        if (chunk[k] == added) return count;
-    chunk[count] = added;
+        if (node[k] == added) return count;
+    node[count] = added;
     return count + 1;
 }
 
-int contact_groups_create(ContactGroups *groups, const Model *model, int item_count, int corners, const int32_t *node)
+/* What the items of a group have in common. */
+static void describe(ContactGroups *groups, const ContactItems *items, int g)
 {
-    groups->count = (item_count + CONTACT_GROUP - 1) / CONTACT_GROUP;
+    const ContactLanes *lanes = &groups->lanes[g];
+    groups->body[g] = items->body[lanes->item[0]];
+    for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) {
+        int32_t i = lanes->item[k];
+        groups->radius[g] = fmax(groups->radius[g], items->radius[i]);
+        groups->side[g] |= items->side[i];
+        if (items->body[i] != groups->body[g]) groups->body[g] = CONTACT_MIXED;
+    }
+}
+
+/* Lane k of a group is item i; what is nobody's gets a number that no other lane has, of nodes or of triangles. */
+static void fill_lane(ContactLanes *lanes, const ContactItems *items, int k, int32_t i)
+{
+    int32_t nobody = -10 - 2 * i - (items->corners == 1);
+    lanes->item[k] = i;
+    for (int n = 0; n < items->corners; n++) lanes->node[n][k] = items->node[(ptrdiff_t)items->corners * i + n];
+    for (int n = items->corners; n < 3; n++) lanes->node[n][k] = lanes->node[0][k];
+    lanes->node[3][k] = items->fourth ? items->fourth[i] : -1;
+    lanes->side[k] = items->side[i];
+    lanes->body[k] = items->body[i] == -1 ? nobody : items->body[i];
+    lanes->shell[k] = items->shell && items->shell[i] >= 0 ? items->shell[i] : nobody;
+}
+
+/* Lanes and nodes of group g, which has count items. */
+static void fill_group(ContactGroups *groups, const ContactItems *items, int g, const int32_t *item, int count)
+{
+    ContactLanes *lanes = &groups->lanes[g];
+    int32_t sorted[CONTACT_GROUP];
+    int nodes = 0;
+    for (int k = 0; k < count; k++) sorted[k] = item[k];
+    contact_sort(sorted, count);
+    for (int k = 0; k < CONTACT_GROUP; k++) fill_lane(lanes, items, k, sorted[k < count ? k : 0]);
+    for (int k = count; k < CONTACT_GROUP; k++) lanes->item[k] = -1, lanes->side[k] = 0;
+    for (int k = 0; k < count; k++)
+        for (int n = 0; n < items->corners; n++)
+            nodes = add_node(groups->node + groups->start[g], nodes, lanes->node[n][k]);
+    groups->start[g + 1] = groups->start[g] + nodes;
+    describe(groups, items, g);
+}
+
+int contact_groups_create(ContactGroups *groups, const ContactItems *items, const int32_t *order)
+{
+    groups->count = (items->count + CONTACT_GROUP - 1) / CONTACT_GROUP;
     size_t count = (size_t)groups->count + 1;
+    groups->lanes = memory_alloc(count, sizeof *groups->lanes);
     groups->start = memory_alloc(count, sizeof *groups->start);
-    groups->chunk = memory_alloc((size_t)item_count * (size_t)corners + 1, sizeof *groups->chunk);
-    groups->way = memory_alloc(count, sizeof *groups->way);
-    groups->speed = memory_alloc(count, sizeof *groups->speed);
-    if (!groups->start || !groups->chunk || !groups->way || !groups->speed) return -1;
+    groups->node = memory_alloc((size_t)items->count * (size_t)items->corners + 1, sizeof *groups->node);
+    groups->velocity = memory_alloc(count, sizeof *groups->velocity);
+    groups->box = memory_alloc(count, sizeof *groups->box);
+    groups->radius = memory_alloc(count, sizeof *groups->radius);
+    groups->side = memory_alloc(count, 1);
+    groups->body = memory_alloc(count, sizeof *groups->body);
+    groups->idle = memory_alloc(count, 1);
+    groups->fresh = memory_alloc(count, 1);
+    if (!groups->lanes || !groups->start || !groups->node || !groups->velocity || !groups->box || !groups->radius ||
+        !groups->side || !groups->body || !groups->idle || !groups->fresh)
+        return -1;
     for (int g = 0; g < groups->count; g++) {
-        int first = g * CONTACT_GROUP, end = first + CONTACT_GROUP < item_count ? first + CONTACT_GROUP : item_count;
-        int chunks = 0;
-        int32_t *chunk = groups->chunk + groups->start[g];
-        for (int k = first * corners; k < end * corners; k++)
-            if (node[k] < model->moving_count) chunks = add_chunk(chunk, chunks, node[k] / CONTACT_NODE_CHUNK);
-        groups->start[g + 1] = groups->start[g] + chunks;
+        int first = g * CONTACT_GROUP, left = items->count - first;
+        fill_group(groups, items, g, order + first, left < CONTACT_GROUP ? left : CONTACT_GROUP);
     }
     return 0;
 }
 
-void contact_groups_move(ContactGroups *groups, const ContactMotion *motions, double time)
+void contact_groups_place(ContactGroups *groups, const double *x, int first, int end)
 {
-    for (int g = 0; g < groups->count; g++) {
-        double fastest = 0.0;
-        for (int32_t k = groups->start[g]; k < groups->start[g + 1]; k++) {
-            double square = motions[groups->chunk[k]].fastest;
-            fastest = square > fastest ? square : fastest;
-        }
-        groups->speed[g] = sqrt(fastest);
-        groups->way[g] += groups->speed[g] * time;
+    for (int g = first; g < end; g++) {
+        ContactBox *box = &groups->box[g];
+        contact_box_start(box, x + 3 * (ptrdiff_t)groups->node[groups->start[g]]);
+        for (int32_t k = groups->start[g] + 1; k < groups->start[g + 1]; k++)
+            contact_box_add(box, x + 3 * (ptrdiff_t)groups->node[k]);
     }
+}
+
+void contact_groups_follow(ContactGroups *groups, const double *v, int first, int end)
+{
+    for (int g = first; g < end; g++) {
+        ContactBox box;
+        contact_box_start(&box, v + 3 * (ptrdiff_t)groups->node[groups->start[g]]);
+        for (int32_t k = groups->start[g] + 1; k < groups->start[g + 1]; k++)
+            contact_box_add(&box, v + 3 * (ptrdiff_t)groups->node[k]);
+        for (int k = 0; k < 3; k++) {
+            groups->velocity[g].low[k] = (float)(box.low[k] - 1e-6 * fabs(box.low[k]));
+            groups->velocity[g].high[k] = (float)(box.high[k] + 1e-6 * fabs(box.high[k]));
+        }
+    }
+}
+
+bool contact_groups_meet(const ContactGroups *a, int g, const ContactGroups *b, int h)
+{
+    if (a->idle[g] || b->idle[h] || !contact_sides_meet(a->side[g], b->side[h])) return false;
+    return a->body[g] == CONTACT_MIXED || a->body[g] == -1 || a->body[g] != b->body[h];
 }
 
 void contact_groups_free(ContactGroups *groups)
 {
+    memory_free(groups->lanes);
     memory_free(groups->start);
-    memory_free(groups->chunk);
-    memory_free(groups->way);
-    memory_free(groups->speed);
+    memory_free(groups->node);
+    memory_free(groups->velocity);
+    memory_free(groups->box);
+    memory_free(groups->radius);
+    memory_free(groups->side);
+    memory_free(groups->body);
+    memory_free(groups->idle);
+    memory_free(groups->fresh);
     *groups = (ContactGroups){0};
 }

@@ -1,15 +1,19 @@
-/* How far nodes have gone, by groups of nodes, triangles or edges: pairs sleep until theirs may have met. */
+/* Where nodes, triangles and edges are and how fast, by groups of them: pairs of groups sleep until they may have met.
+ */
 #ifndef BILLOW_CONTACT_MOTION_H
 #define BILLOW_CONTACT_MOTION_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "contact/contact_grid.h"
 #include "solver/model.h"
 
 enum {
-    CONTACT_GROUP = 64,      /* nodes, triangles or edges of one group */
+    CONTACT_GROUP = 16,      /* nodes, triangles or edges of one group: lanes of contact/near_kernels.c */
     CONTACT_NODE_CHUNK = 64, /* nodes of one fixed partial sum */
+    CONTACT_MIXED = -3,      /* body of a group with items of several */
 };
 
 /* Box around displacements since the last search; zero is in it. Two nodes came nearer by no more than its diagonal. */
@@ -37,20 +41,67 @@ typedef struct ContactMotion {
     ContactDrift drift;
 } ContactMotion;
 
-/* Item k is in group k / CONTACT_GROUP. */
+/* Box around the velocities of a group, rounded outward; the fourth component is 0 [L/T]. */
+typedef struct ContactVelocities {
+    float low[4], high[4];
+} ContactVelocities;
+
+/* Items of one kind as the interface has them; arrays by item. */
+typedef struct ContactItems {
+    int count, corners;
+    const int32_t *node; /* (count x corners) */
+    const unsigned char *side;
+    const int32_t *body;
+    const double *radius;
+    const int32_t *shell;  /* element; NULL: none */
+    const int32_t *fourth; /* fourth node, -1 none; NULL: none */
+} ContactItems;
+
+/* The items of one group lane by lane, as kernels read them; lanes without an item have side 0. */
+typedef struct ContactLanes {
+    int32_t item[CONTACT_GROUP]; /* ascending, -1 none */
+    int32_t node[4]
+                [CONTACT_GROUP]; /* its nodes; the last: of a triangle that of its quadrilateral that it lacks, or -1 */
+    int32_t side[CONTACT_GROUP];
+    int32_t body[CONTACT_GROUP];  /* rigid body; another number for each deformable item */
+    int32_t shell[CONTACT_GROUP]; /* element; another number for each item without */
+} ContactLanes;
+
 typedef struct ContactGroups {
     int count;
-    int32_t *start; /* of each group in chunk (count + 1) */
-    int32_t *chunk; /* chunks that hold its moving nodes */
-    double *way;    /* no node of the group has gone farther since the loop began (count) [L] */
-    double *speed;  /* largest now (count) [L/T] */
+    ContactLanes *lanes;         /* (count) */
+    int32_t *start;              /* of each group in node (count + 1) */
+    int32_t *node;               /* nodes of each group, each once */
+    ContactVelocities *velocity; /* now (count) */
+    ContactBox *box;             /* around its nodes at the last search (count) [L] */
+    double *radius;              /* largest of its items (count) [L] */
+    unsigned char *side;         /* of all its items (count) */
+    int32_t *body;               /* of all its items, or CONTACT_MIXED (count) */
+    unsigned char *idle;         /* none of its items meets anything (count) */
+    unsigned char *fresh;        /* an item of it has begun to with the last search (count) */
 } ContactGroups;
 
-/* Groups of items with so many nodes each (item_count x corners). 0, or -1 without memory. */
-int contact_groups_create(ContactGroups *groups, const Model *model, int item_count, int corners, const int32_t *node);
+/* Groups of items in an order by contact_patches. 0, or -1 without memory. */
+int contact_groups_create(ContactGroups *groups, const ContactItems *items, const int32_t *order);
 
-/* Takes the speeds of all chunks, at which the nodes go for a time. */
-void contact_groups_move(ContactGroups *groups, const ContactMotion *motions, double time);
+/* Boxes of the groups [first, end) at positions x; their velocities. */
+void contact_groups_place(ContactGroups *groups, const double *x, int first, int end);
+void contact_groups_follow(ContactGroups *groups, const double *v, int first, int end);
+
+/* Can an item of group g meet one of group h? */
+bool contact_groups_meet(const ContactGroups *a, int g, const ContactGroups *b, int h);
+
+/* How fast two points of two groups may come nearer at most. */
+static inline double contact_closing(const ContactVelocities *a, const ContactVelocities *b)
+{
+    float square = 0.0f;
+    for (int k = 0; k < 4; k++) {
+        float up = a->high[k] - b->low[k], down = b->high[k] - a->low[k];
+        up = up > down ? up : down;
+        square += up * up;
+    }
+    return sqrt((double)square * (1.0 + 1e-6));
+}
 
 void contact_groups_free(ContactGroups *groups);
 

@@ -1,85 +1,63 @@
-/* Candidate lists: what threads found behind each other, memories of pairs kept from one list to the next. */
+/* Pairs of groups: what threads found behind each other. */
 #include "contact/contact_pairs.h"
 
 #include <string.h>
 
 #include "solver/memory.h"
 
-/* Begins a new list in the room of the one before the last. */
-int contact_pairs_begin(ContactList *list)
+int contact_part_add(ContactPart *part, int32_t other, double slack)
 {
-    ContactPairs last = list->pairs;
-    list->pairs = list->before;
-    list->before = last;
-    list->pairs.count = 0;
-    return memory_reserve((void **)&list->pairs.start, &list->pairs.start_capacity, (size_t)list->owner_count + 1,
-                          sizeof *list->pairs.start);
-}
-
-int contact_part_add(ContactPart *part, int32_t other)
-{
-    if (memory_reserve((void **)&part->other, &part->other_capacity, part->count + 1, sizeof *part->other)) return -1;
-    part->other[part->count++] = other;
+    if (memory_reserve((void **)&part->pair, &part->pair_capacity, part->pair_count + 1, sizeof *part->pair)) return -1;
+    part->pair[part->pair_count++] = (ContactGroupPair){.slack = slack, .other = other};
     return 0;
 }
 
-/* First owner of a thread. */
 int contact_first_of(int count, int thread, int threads)
 {
     return (int)((int64_t)count * thread / threads);
 }
 
-/* Puts what the threads found behind each other. */
+/* A pair that was there before may know better how far apart its groups are. */
+void contact_pairs_remember(const ContactList *list, int group, const unsigned char *fresh, ContactGroupPair *pair,
+                            size_t count)
+{
+    int32_t old = list->start[group], end = list->start[group + 1];
+    for (size_t k = 0; k < count; k++) {
+        while (old < end && list->pair[old].other < pair[k].other) old++;
+        if (old < end && list->pair[old].other == pair[k].other && !fresh[pair[k].other])
+            pair[k].slack = fmax(pair[k].slack, list->pair[old].slack);
+    }
+}
+
 int contact_pairs_join(ContactLoop *loop, ContactList *list, int threads)
 {
-    ContactPairs *pairs = &list->pairs;
+    size_t count = 0, capacity = list->pair_capacity;
     for (int k = 0; k < threads; k++) {
         const ContactPart *part = &loop->parts[k];
-        if (part->failed || memory_reserve((void **)&pairs->other, &pairs->other_capacity, pairs->count + part->count,
-                                           sizeof *pairs->other))
+        if (part->failed || memory_reserve((void **)&list->next, &list->next_capacity, count + part->pair_count + 1,
+                                           sizeof *list->next))
             return -1;
-        for (int i = contact_first_of(list->owner_count, k, threads);
-             i < contact_first_of(list->owner_count, k + 1, threads); i++)
-            pairs->start[i] += (int32_t)pairs->count;
-        if (part->count > 0) memcpy(pairs->other + pairs->count, part->other, part->count * sizeof *part->other);
-        pairs->count += part->count;
+        for (int g = contact_first_of(list->group_count, k, threads);
+             g < contact_first_of(list->group_count, k + 1, threads); g++)
+            list->next_start[g] += (int32_t)count;
+        if (part->pair_count > 0) memcpy(list->next + count, part->pair, part->pair_count * sizeof *part->pair);
+        count += part->pair_count;
     }
+    list->next_start[list->group_count] = (int32_t)count;
+    ContactGroupPair *pair = list->pair;
+    int32_t *start = list->start;
+    list->pair = list->next, list->next = pair;
+    list->start = list->next_start, list->next_start = start;
+    list->pair_capacity = list->next_capacity, list->next_capacity = capacity;
     return 0;
 }
 
-/* Memories move to the new places of their pairs; both lists ascend. */
-int contact_pairs_end(ContactList *list)
-{
-    ContactPairs *pairs = &list->pairs;
-    const ContactPairs *before = &list->before;
-    pairs->start[list->owner_count] = (int32_t)pairs->count;
-    size_t room = pairs->count + 1;
-    if (memory_reserve((void **)&pairs->wake, &pairs->wake_capacity, room, sizeof *pairs->wake) ||
-        memory_reserve((void **)&pairs->slot, &pairs->slot_capacity, room, sizeof *pairs->slot) ||
-        memory_reserve((void **)&list->forces, &list->force_capacity, room, sizeof *list->forces))
-        return -1;
-    memset(pairs->wake, 0, pairs->count * sizeof *pairs->wake);
-    memset(pairs->slot, 0, pairs->count * sizeof *pairs->slot);
-    memset(list->idle, 0, (size_t)list->chunk_count * sizeof *list->idle);
-    for (int i = 0; before->start && i < list->owner_count; i++) {
-        int32_t n = pairs->start[i], end = pairs->start[i + 1];
-        for (int32_t o = before->start[i]; o < before->start[i + 1]; o++) {
-            if (before->slot[o] == 0) continue;
-            while (n < end && pairs->other[n] < before->other[o]) n++;
-            if (n < end && pairs->other[n] == before->other[o])
-                pairs->slot[n] = before->slot[o];
-            else /* no candidate any more */
-                list->memory[(ptrdiff_t)i * CONTACT_SLOTS + before->slot[o] - 1] = (ContactMemory){0};
-        }
-    }
-    return 0;
-}
-
-/* Without memory: nothing meets until the run ends in this cycle. */
 void contact_pairs_forget(ContactList *list)
 {
-    list->pairs.count = 0;
-    memory_free(list->pairs.start);
-    list->pairs.start = NULL;
-    list->pairs.start_capacity = 0;
+    memset(list->start, 0, ((size_t)list->group_count + 1) * sizeof *list->start);
+}
+
+void contact_awake(ContactList *list)
+{
+    for (int32_t k = 0; k < list->start[list->group_count]; k++) list->pair[k].slack = -INFINITY;
 }

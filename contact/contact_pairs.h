@@ -1,19 +1,22 @@
-/* Candidate lists as data; the search (contact_find_pairs.c) fills them. */
+/* Pairs of groups as data; the search (contact_find_pairs.c) fills them. */
 #ifndef BILLOW_CONTACT_PAIRS_H
 #define BILLOW_CONTACT_PAIRS_H
 
 #include "contact/contact_loop.h"
 
-/* First of count owners that a thread has. */
+/* First of count that a thread has. */
 int contact_first_of(int count, int thread, int threads);
 
-/* A new list in the room of the one before the last. These return 0, or -1 without memory. */
-int contact_pairs_begin(ContactList *list);
-int contact_part_add(ContactPart *part, int32_t other);
+/* Adds one to what a thread has found. These return 0, or -1 without memory. */
+int contact_part_add(ContactPart *part, int32_t other, double slack);
 
-/* Puts what the threads found behind each other, then moves memories to the new places of their pairs. */
+/* Pairs of a group just found, ascending: those that were there before keep what slack they had, unless the other is
+ * fresh. */
+void contact_pairs_remember(const ContactList *list, int group, const unsigned char *fresh, ContactGroupPair *pair,
+                            size_t count);
+
+/* Puts what the threads found behind each other. */
 int contact_pairs_join(ContactLoop *loop, ContactList *list, int threads);
-int contact_pairs_end(ContactList *list);
 
 /* Without memory: nothing meets until the run ends in this cycle. */
 void contact_pairs_forget(ContactList *list);

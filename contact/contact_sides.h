@@ -43,4 +43,17 @@ static inline bool contact_node_meets(const Model *model, const ContactInterface
     return inverse[node] > 0.0 || inverse[corner[0]] > 0.0 || inverse[corner[1]] > 0.0 || inverse[corner[2]] > 0.0;
 }
 
+/* Edges of one facet or with a common node do not meet, nor those of one rigid body, nor fixed ones. */
+static inline bool contact_edges_meet(const Model *model, const ContactInterface *c, int e, int f)
+{
+    const int32_t *a = c->edge + 2 * (ptrdiff_t)e, *b = c->edge + 2 * (ptrdiff_t)f;
+    const double *inverse = model->contact_inverse;
+    if (!contact_sides_meet(c->edge_side[e], c->edge_side[f])) return false;
+    if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return false;
+    int32_t t = c->edge_triangle[2 * e], u = c->edge_triangle[2 * f];
+    if (c->triangle_body[t] != -1 && c->triangle_body[t] == c->triangle_body[u]) return false;
+    if (c->triangle_shell[t] >= 0 && c->triangle_shell[t] == c->triangle_shell[u]) return false;
+    return inverse[a[0]] > 0.0 || inverse[a[1]] > 0.0 || inverse[b[0]] > 0.0 || inverse[b[1]] > 0.0;
+}
+
 #endif

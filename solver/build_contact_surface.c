@@ -303,8 +303,7 @@ int build_contact_surfaces(Builder *b)
         c->thickest = edges ? 2.0 * triangle : node + triangle;
         if (node + triangle > c->thickest) c->thickest = node + triangle;
         c->first_edge = m->contact_edge_size;
-        c->first_deep = m->contact_edge_size + (size_t)c->edge_count;
-        m->contact_edge_size += (size_t)(c->edge_count + c->node_count);
+        m->contact_edge_size += (size_t)c->edge_count;
         c->first_memory = m->contact_memory_size;
         c->memory_capacity = MEMORY_BY_NODE * (c->node_count + c->edge_count) + 1;
         m->contact_memory_size += (size_t)c->memory_capacity;

@@ -87,8 +87,7 @@ typedef struct State {
     ContactClock *contact;     /* (1 if the model has contact) */
     double *contact_searched;  /* positions at the last search (node_count x 3) [L] */
     double *contact_load;      /* load of each node by its contacts, eq. C6 (node_count) */
-    unsigned char *
-        contact_sharp; /* edges that meet edges and nodes that are deep, at the last search (Model.contact_edge_size) */
+    unsigned char *contact_sharp;  /* edges that meet edges, at the last search (Model.contact_edge_size) */
     ContactMemory *contact_memory; /* pairs in contact, as of the last cycle written (Model.contact_memory_size) */
     int32_t *contact_memories;     /* how many of each interface (contact_count) */
     double *tie_broken;            /* likewise of each tie (ties.count); written by step_ties_act */

@@ -224,8 +224,6 @@ static void loop(void *context, int thread, Team *team)
     for (;;) {
         step_elements(w, thread, threads);
         times->elements += lap(&since);
-        if (w->contact) contact_planes(w->contact, thread, threads);
-        times->contact += lap(&since);
         team_barrier(team);
         times->waiting += lap(&since);
         if (thread == 0) step_gas(w);

@@ -1,0 +1,31 @@
+/* Distances of the pairs of two groups from below: which may touch in this step, and how far off the next is. */
+#ifndef BILLOW_CONTACT_NEAR_KERNELS_H
+#define BILLOW_CONTACT_NEAR_KERNELS_H
+
+#include "contact/contact_motion.h"
+
+/* A pair that may touch: the owner's lane and the other item. */
+typedef struct ContactNearby {
+    int32_t owner, other;
+} ContactNearby;
+
+/* Two groups. */
+typedef struct ContactLook {
+    const ContactLanes *owners, *others;
+    const double *x;     /* positions now */
+    const double *depth; /* how much farther each node looks (node_count) [L] */
+    double reach;        /* pairs nearer than this are found [L] */
+    int count;           /* of pairs found */
+    double nearest;      /* no pair of them is nearer; DBL_MAX without a pair that may meet */
+    ContactNearby found[CONTACT_GROUP * CONTACT_GROUP];
+} ContactLook;
+
+/* One instruction set. What they find may differ by rounding; what is left out is farther than reach in all. */
+typedef struct NearKernels {
+    void (*faces)(ContactLook *look); /* owners are nodes, others triangles */
+    void (*edges)(ContactLook *look); /* both are edges; in one group each pair once */
+} NearKernels;
+
+extern const NearKernels near_kernels_v2, near_kernels_v3, near_kernels_v4;
+
+#endif
