@@ -77,7 +77,7 @@ static void test_random_paths(void **unused)
 {
     (void)unused;
     bool passed = false;
-    for (int k = 0; k < LAW_CASES; k++) {
+    for (int k = 0; k < LAW_CASES; k++) { /* MAT_ELASTIC has no energy, see (F14); what it gives back has a bound */
         const LawCase *l = &cases[k];
         double ratio = 0, least = 0, returned = INFINITY;
         bool stores = law_stores_energy(l->kind, &l->law);
@@ -94,6 +94,7 @@ static void test_random_paths(void **unused)
         print_message("%-28s squared frequency %.4f of its bound; least work %.2g, after a cycle %.2g\n", l->name,
                       ratio, least, returned);
         passed = passed || !(ratio <= 1 + 1e-5);
+        if (l->kind == LAW_LOGARITHMIC && !(least > -0.3)) fail_msg("%s: energy falls to %g", l->name, least);
         if (l->kind == LAW_CURVE || stores) {
             if (!(least > -0.005)) fail_msg("%s: energy falls to %g", l->name, least);
             if (!(returned > -0.005)) fail_msg("%s: a cycle gives back %g more than it took", l->name, returned);
