@@ -120,6 +120,8 @@ static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run)
                         .inverse = loop->model->contact_inverse,
                         .room = loop->room,
                         .corner = loop->corner,
+                        .pulled = loop->pulled,
+                        .time = loop->step.time,
                         .before = loop->step.before,
                         .next = loop->step.next,
                         .sliding = room_for_sliding(loop->model),

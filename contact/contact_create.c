@@ -70,6 +70,7 @@ void contact_free(ContactLoop *loop)
     memory_free(loop->written);
     memory_free(loop->room);
     memory_free(loop->around);
+    memory_free(loop->pulled);
     memory_free(loop->runs);
     memory_free(loop->resultant);
     memory_free(loop->motions);
@@ -226,11 +227,12 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     loop->written = memory_alloc((size_t)model->node_count / CONTACT_NODE_CHUNK + 1, 1);
     loop->room = memory_alloc(6 * (size_t)model->node_count, sizeof(double));
     loop->around = memory_alloc((size_t)model->node_count, sizeof(double));
+    loop->pulled = contact_list_pulled(model);
     loop->resultant = memory_alloc(3 * (size_t)model->contact_count, sizeof(double));
-    int status =
-        loop->runs && loop->parts && loop->motions && loop->written && loop->resultant && loop->room && loop->around
-            ? 0
-            : -1;
+    int status = loop->runs && loop->parts && loop->motions && loop->written && loop->resultant && loop->room &&
+                         loop->around && loop->pulled
+                     ? 0
+                     : -1;
     for (int i = 0; !status && i < model->contact_count; i++) status = run_create(loop, i);
     if (!status && state->contact->started) {
         loop->restored = true;

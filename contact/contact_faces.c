@@ -114,8 +114,10 @@ static bool take_side(const ContactLaw *law, const ContactInterface *c, const do
     bool inside = f->at.feature == 7 || f->at.distance == 0.0;
     double mean[3];
     int now = inside ? (f->at.height > 0.0) - (f->at.height < 0.0) : side_of_feature(c, x, f, mean);
-    double before = f->at.height - law->before * vector3_dot(t->speed, f->at.normal);
-    t->side = m->side ? m->side : f->at.feature != 7 ? now : before > 0.0 ? 1 : before < 0.0 ? -1 : now;
+    const double *normal = inside ? f->at.normal : mean;
+    double height = inside ? f->at.height : vector3_dot(mean, f->at.toward);
+    double before = height - law->before * vector3_dot(t->speed, normal);
+    t->side = m->side ? m->side : f->rim ? now : before > 0.0 ? 1 : before < 0.0 ? -1 : now;
     if (t->side == 0) return false;
     if (inside) {
         t->gap = t->side * f->at.height;
@@ -181,21 +183,31 @@ static bool cannot_touch(const ContactLaw *law, const ContactTouch *t, const Nea
     return beyond > 0.0 && beyond * beyond > longer * longer * vector3_dot(t->speed, t->speed) * (1.0 + 1e-9);
 }
 
+/* Does the closest point lie on the surface's rim? An edge between two corners of the rim may be none of it. */
+static bool is_on_rim(const ContactInterface *c, const NearFace *f)
+{
+    const ptrdiff_t first = 3 * (ptrdiff_t)f->triangle;
+    if (f->at.feature == 7) return false;
+    for (int k = 0; k < 3; k++) {
+        if (f->at.feature == 1 << k) return c->corner_rim[first + k];
+        if (f->at.feature == (7 & ~(1 << k))) return c->neighbour[first + k] < 0;
+    }
+    return false;
+}
+
 /* One near triangle: the node's pair with it, pushed. */
 static void meet_face(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, NearFace *f, ContactSums *sums,
                       ContactForce *forces)
 {
     const ContactInterface *c = run->contact;
     ContactMemory fresh = {0}, *m = f->memory;
-    const unsigned char *rim = c->corner_rim + 3 * (ptrdiff_t)f->triangle;
     ContactTouch t = {.node = {c->node[i], f->at.corner[0], f->at.corner[1], f->at.corner[2]},
                       .weight = {1.0, -f->at.weight[0], -f->at.weight[1], -f->at.weight[2]},
                       .thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[f->triangle]),
                       .stiffness = c->stiffness[c->node_side[i] == CONTACT_SIDE_B]};
     if (f->kept) contact_speed(law, &t);
     if (f->kept && !m && cannot_touch(law, &t, f)) return;
-    f->rim = f->at.feature != 7;
-    for (int a = 0; a < 3; a++) f->rim = f->rim && (!(f->at.feature & 1 << a) || rim[a]);
+    f->rim = is_on_rim(c, f);
     if (!f->kept || !take_side(law, c, loop->state->x, f, m ? m : &fresh, &t)) {
         if (m) *m = (ContactMemory){0};
         return;

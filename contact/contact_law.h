@@ -24,13 +24,14 @@
 typedef struct ContactLaw {
     const Model *model;
     const double *v, *inverse;
-    const double *rows;     /* corner sums of the elements, elements/kernels.h (row_count x ROW_SIZE) */
-    const double *pressure; /* of each pressure set (pressure_set_count + 1) */
-    const double *room;     /* by node, contact/contact_loop.h (node_count x 6) */
-    const double *corner;   /* loads of the last cycle, fourth in a node's row */
-    double before, next;    /* dt_{n-1/2}, dt_{n+1/2} */
-    double sliding;         /* b for friction's springs */
-    double damping;         /* share of critical */
+    const double *rows;          /* corner sums of the elements, elements/kernels.h (row_count x ROW_SIZE) */
+    const double *pressure;      /* of each pressure set (pressure_set_count + 1) */
+    const double *room;          /* by node, contact/contact_loop.h (node_count x 6) */
+    const double *corner;        /* loads of the last cycle, fourth in a node's row */
+    const unsigned char *pulled; /* contact_list_pulled */
+    double time, before, next;   /* t_n, dt_{n-1/2}, dt_{n+1/2} */
+    double sliding;              /* b for friction's springs */
+    double damping;              /* share of critical */
     double static_friction, dynamic_friction, decay;
     double deepest; /* penetration at which a pair is given up [L] */
 } ContactLaw;
@@ -154,12 +155,15 @@ static inline void contact_stiffen(const ContactTouch *t, double stiffness, bool
     }
 }
 
-/* Acceleration of a free node by its elements and the gas; others are taken to have none. */
+/* contact_pull of a special node: 0 but for those that supports alone make special. */
+double contact_pull_special(const ContactLaw *law, int32_t node, const double d[3]);
+
+/* Acceleration of a node by its elements and the gas. */
 static inline double contact_pull(const ContactLaw *law, int32_t node, const double d[3])
 {
     const Model *m = law->model;
     double sum = 0.0;
-    if (node >= m->free_count) return 0.0;
+    if (node >= m->free_count) return contact_pull_special(law, node, d);
     for (int32_t k = m->node_row_start[node]; k < m->node_row_start[node + 1]; k++) {
         int32_t row = m->node_row[k];
         if (row >= m->contact_row) break;

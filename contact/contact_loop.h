@@ -164,8 +164,9 @@ typedef struct ContactLoop {
     size_t box_capacity;
     double *room; /* at the last search: (w dt)^2 that contact may add at a node in direction d is 1/(d . room d); xx yy
                    * zz xy yz zx (node_count x 6) */
-    double *around; /* workspace: mass of the elements at each node (node_count) */
-    bool restored;  /* the first search of a restart: at the place and with the edges of the last one */
+    double *around;        /* workspace: mass of the elements at each node (node_count) */
+    unsigned char *pulled; /* of the special nodes: contact_list_pulled (moving - free count) */
+    bool restored;         /* the first search of a restart: at the place and with the edges of the last one */
     int64_t searches;
     double search_seconds;
     bool out_of_memory;
@@ -196,6 +197,9 @@ void contact_follow_groups(ContactLoop *loop, int thread, int threads);
 
 /* Fills room; elements, rest: (w dt)^2 that elements may have, and that they leave in their plane. */
 void contact_fill_room(ContactLoop *loop, const double *x, double elements, double rest);
+
+/* 1 for nodes with supports that follow no body, edge or partner (moving - free count); NULL without memory. */
+unsigned char *contact_list_pulled(const Model *model);
 
 struct ContactLaw;
 void contact_meet_faces(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int group, int thread);

@@ -39,6 +39,13 @@ static void spin_of_momentum(const RigidBody *body, const double axes[9], const 
     matrix3_apply(axes, local, spin);
 }
 
+void rigid_body_spin_of(const RigidBody *body, const RigidState *state, const double momentum[3], double spin[3])
+{
+    double axes[9];
+    current_axes(body, state->rotation, axes);
+    spin_of_momentum(body, axes, momentum, spin);
+}
+
 /* L = B I B^T w. */
 static void momentum_of_spin(const RigidBody *body, const double axes[9], const double spin[3], double momentum[3])
 {

@@ -100,6 +100,9 @@ void rigid_body_step(const RigidBody *body, RigidState *state, const double *x, 
                      const RigidField *field, const RigidPrescription *prescription, double dt_mean, double dt_next,
                      double *v, RigidWork *work);
 
+/* Spin that an angular momentum about the centre (global axes) means at the present rotation: I^-1 L. */
+void rigid_body_spin_of(const RigidBody *body, const RigidState *state, const double momentum[3], double spin[3]);
+
 /* Kinetic energy at the half step of the state as it stands. */
 double rigid_body_kinetic(const RigidBody *body, const RigidState *state);
 

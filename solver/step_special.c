@@ -5,6 +5,7 @@
 #include "solver/step_links.h"
 #include "solver/step_seams.h"
 #include "solver/step_ties.h"
+#include "solver/vector3.h"
 #include "solver/workspace.h"
 
 /* Forces of the special nodes; stress, bag and load pressure on the velocities before the step for the ledger. */
@@ -38,8 +39,12 @@ static void gather_special(Workspace *w, NodeSums *t, bool after)
             f[i] = stress[i] + (bag_force[i] + load_force[i]);
             t->bag_before += bag_force[i] * vn[i];
             t->load_before += load_force[i] * vn[i];
-            t->compliance += area[i] * area[i] * m->inverse_mass[node];
         }
+        if (after || !(vector3_dot(area, area) > 0.0)) continue;
+        RateRows held = {0}; /* what does not give way opens no volume */
+        if (m->constraints.support_count > 0) constraints_held(&m->constraints, node, w->plan.time, &held);
+        rate_rows_apply(&held, area);
+        t->compliance += vector3_dot(area, area) * m->inverse_mass[node];
     }
 }
 
