@@ -12,6 +12,7 @@ typedef struct JetFacet {
     int32_t row[4];      /* rows of corner sums of its corners, counted from its chunk's first */
     int8_t corner_count; /* 3 or 4 */
     bool target;         /* in PSID, or PSID = 0: takes the jet's pressure */
+    int64_t slot;        /* padded element index, for State.eroded */
 } JetFacet;
 
 /* Immutable. Curve members are indices, -1 none; their time counts from the start of the inflow. */

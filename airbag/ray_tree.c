@@ -272,6 +272,7 @@ static bool hits_facet(const RayTree *tree, const double *x, const Ray *ray, int
     const int32_t *node = tree->node + 4 * (ptrdiff_t)facet;
     const double *a = x + 3 * (ptrdiff_t)node[0], *b = x + 3 * (ptrdiff_t)node[1], *c = x + 3 * (ptrdiff_t)node[2];
     int side = tree->side ? tree->side[facet] : 0;
+    if (tree->side && side == 0) return false;
     if (hits_triangle(ray, side, a, b, c)) return true;
     return node[3] != node[2] && hits_triangle(ray, side, a, c, x + 3 * (ptrdiff_t)node[3]);
 }

@@ -21,8 +21,9 @@ typedef struct RayTree {
     int32_t *hint;       /* last facet found in front of each, plus 1; 0: none (facet_count) */
     double *middle;      /* centroids while building (facet_count x 3) */
     double built_size;   /* surface of all boxes over all facets when it was built */
-    const int8_t *side;  /* (facet_count) +1: the normal by the order of the nodes points out; NULL: all facets block.
-                          * With it only those block that the line passes inwards. The caller's */
+    const int8_t *side;  /* (facet_count) +1: the normal by the order of the nodes points out; 0: the facet is not
+                          * there; NULL: all facets block. With it only those block that the line passes inwards. The
+                          * caller's */
     int from_count;
     double from[2][3]; /* with side: lines start between these points */
 } RayTree;

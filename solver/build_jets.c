@@ -183,6 +183,7 @@ static int list_facets(Builder *b, const AirbagDefinition *bag, Jet *jet)
             last = segment;
             const int32_t *row = group->row + block * group->corner_count * BILLOW_LANES + e % BILLOW_LANES;
             fill_facet(jet, record, record->sign[place], row, target);
+            jet->facet[jet->facet_count - 1].slot = group->first_element + e;
             pushed += target;
         }
         first += group->element_count;

@@ -23,6 +23,9 @@ int step_jets_allocate(Workspace *w)
         w->jets[i].first_chunk = w->jet_chunk_count;
         w->jet_chunk_count += m->jets[i].chunk_count;
         if (ray_tree_create(&w->jets[i].tree, m->jets[i].facet_count, m->jets[i].node)) return -1;
+        if (!m->has_erosion) continue;
+        w->jets[i].side = memory_alloc((size_t)m->jets[i].facet_count + 1, 1);
+        if (!w->jets[i].side) return -1;
     }
     w->jet_sums = memory_alloc((size_t)w->jet_chunk_count + 1, sizeof *w->jet_sums);
     w->jet_area = memory_alloc((size_t)m->jet_row_count + 1, sizeof *w->jet_area);
@@ -31,7 +34,10 @@ int step_jets_allocate(Workspace *w)
 
 void step_jets_release(Workspace *w)
 {
-    for (int i = 0; w->jets && i < w->model->jet_count; i++) ray_tree_free(&w->jets[i].tree);
+    for (int i = 0; w->jets && i < w->model->jet_count; i++) {
+        ray_tree_free(&w->jets[i].tree);
+        memory_free(w->jets[i].side);
+    }
     memory_free(w->jets);
     memory_free(w->jet_sums);
     memory_free(w->jet_area);
@@ -53,6 +59,14 @@ static double next_view(const Workspace *w, const Jet *jet)
     return w->plan.time + (fastest * longest > way ? way / fastest : longest);
 }
 
+/* What has eroded is not seen. */
+static const int8_t *present_sides(const Workspace *w, const Jet *jet, JetWork *work)
+{
+    if (!work->side) return jet->side;
+    for (int f = 0; f < jet->facet_count; f++) work->side[f] = w->state->eroded[jet->facet[f].slot] ? 0 : jet->side[f];
+    return work->side;
+}
+
 void step_jets_prepare(Workspace *w)
 {
     const Model *m = w->model;
@@ -66,7 +80,7 @@ void step_jets_prepare(Workspace *w)
         if (!work->view) continue;
         double end[3];
         for (int k = 0; k < 3; k++) end[k] = work->frame.focus[k] + work->frame.distance * work->frame.across[k];
-        ray_tree_sides(&work->tree, jet->side, work->frame.focus, end);
+        ray_tree_sides(&work->tree, present_sides(w, jet, work), work->frame.focus, end);
         w->state->jet[i].next_view = next_view(w, jet);
         w->state->jet[i].looks++;
     }

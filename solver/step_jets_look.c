@@ -28,6 +28,8 @@ static void facet_geometry(const Jet *jet, int f, const double *x, double middle
 static double view_facet(const Workspace *w, const Jet *jet, JetWork *work, int f, double before, double *area)
 {
     double middle[3], outward[3], origin[3], sight[3];
+    *area = 0.0;
+    if (work->side && work->side[f] == 0) return 0.0;
     facet_geometry(jet, f, w->state->x, middle, outward);
     *area = vector3_norm(outward);
     if (before != 0.0 && (f + w->state->jet[work - w->jets].looks) % 2 != 0) return before;

@@ -74,7 +74,8 @@ extern const JetKernels jet_kernels_v2, jet_kernels_v3, jet_kernels_v4;
 typedef struct JetWork {
     RayTree tree;
     JetFrame frame;
-    bool view; /* the line of sight is looked at in this cycle */
+    int8_t *side; /* as the jet's, 0: eroded, at the last look (facet_count); NULL where nothing erodes */
+    bool view;    /* the line of sight is looked at in this cycle */
     int first_chunk;
 } JetWork;
 
