@@ -41,6 +41,11 @@ static void make_folding_bag(Scene *scene, const Options *options)
     scene_folding_bag(scene, options->n, 0);
 }
 
+static void make_wall_bag(Scene *scene, const Options *options)
+{
+    scene_wall_bag(scene, options->n);
+}
+
 static void make_impactor_sphere(Scene *scene, const Options *options)
 {
     scene_impactor(scene, options->n, false);
@@ -110,6 +115,7 @@ static const struct SceneName {
     {"cushion", "square cushion inflated from flat (-n cells per side)", make_cushion},
     {"sewn-bag", "disc and ellipse of one perimeter, sewn by their reference geometry (-n rings)", make_sewn_bag},
     {"folding-bag", "driver bag to be folded, blown up by an inflator and damped (-n rings)", make_folding_bag},
+    {"wall-bag", "driver bag to be folded, deploys against itself and a wall (-n rings)", make_wall_bag},
     {"impactor-sphere", "a sphere drops on a vented cushion (-n cells per side)", make_impactor_sphere},
     {"impactor-box", "a box of a head's size drops on a vented cushion (-n cells per side)", make_impactor_box},
     {"pressed-bag", "the same under a constant pressure of 20 kPa (-n rings)", make_pressed_bag},

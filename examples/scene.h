@@ -259,6 +259,9 @@ void scene_folding_bag(Scene *scene, int n, double pressure);
 void scene_folding_mesh(SceneMesh *mesh, int n);
 void scene_folding_deck(Scene *scene, double pressure);
 
+/* The bag of scene_folding_bag with vents and contact with itself, the middle of its lower panel held, under a wall. */
+void scene_wall_bag(Scene *scene, int n);
+
 /* The speed benchmark: gas-filled cushion of about the given number of shells, orthotropic fabric FORM 0 with CSE. The
  * run takes about the given number of cycles. */
 void scene_speed(Scene *scene, ScenePattern pattern, int shells, int cycles);

@@ -269,8 +269,9 @@ static void read_general(KeywordRead *read, SetDefinition *set, int card_index)
 static void finish_set(KeywordRead *read, const SetDefinition *set, int errors_before)
 {
     if (set->members.count + set->clauses.count + set->segments.count > 0) return;
-    if (!read->out_of_memory && read->cards->diagnostics->errors == errors_before)
-        keyword_error(read, set->source, "set %d has no members; list them on the lines after this one", set->id);
+    if (read->out_of_memory || read->cards->diagnostics->errors > errors_before) return;
+    read->kept = true;
+    keyword_error(read, set->source, "set %d has no members; list them on the lines after this one", set->id);
 }
 
 static void read_set(KeywordRead *read, SetKind kind)

@@ -52,6 +52,7 @@ typedef struct KeywordRead {
     CardReader *cards;
     Definitions *definitions;
     bool out_of_memory; /* set once; reading of the deck then ends */
+    bool kept; /* errors were reported, and yet the record is there: the rest of the deck can be checked against it */
 } KeywordRead;
 
 extern const KeywordFamily keyword_family_nodes, keyword_family_parts, keyword_family_materials, keyword_family_fabric,

@@ -57,9 +57,9 @@ static bool read_block(const DeckText *deck, const DeckBlock *block, Definitions
     if (spec->state != KEYWORD_READ) return true;
     const int errors = diagnostics->errors;
     CardReader cards = {block, 0, deck->parameters, diagnostics};
-    KeywordRead read = {spec, options, &cards, definitions, false};
+    KeywordRead read = {spec, options, &cards, definitions, false, false};
     spec->read(&read);
-    if (diagnostics->errors > errors) definitions->incomplete = true;
+    if (diagnostics->errors > errors && !read.kept) definitions->incomplete = true;
     return !read.out_of_memory;
 }
 

@@ -2,6 +2,7 @@
 #include "tests/keyword_case.h"
 
 #include "contact/contact_check.h"
+#include "tests/program.h"
 #include "tests/verify.h"
 
 static void test_cards(void **state)
@@ -121,6 +122,41 @@ static void test_wrong_surfaces(void **state)
     expect_errors("*CONTACT_NODES_TO_SURFACE\n2,2,3,3\n\n\n", 0, NULL);
 }
 
+/* What the reader finds and what the build finds, with the lines of the deck, in one list: a set of zero segments,
+ * bodies that share a node, parts and sets that are missing, sides that are empty, a thickness of zero. */
+static void test_one_list(void **state)
+{
+    (void)state;
+    static Program program;
+    static const char cards[] = "*ELEMENT_SHELL\n3,4,1,2,3,4\n4,5,2,6,7,3\n"
+                                "*PART\nrigid\n4,1,4\n*PART\nrigid too\n5,1,4\n*MAT_RIGID\n4,7800,2e11,0.3\n0\n\n"
+                                "*SET_SEGMENT\n9\n"
+                                "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n1,99,3,3\n\n\n"
+                                "*CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE\n1,9,3,0\n\n\n"
+                                "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n3,3,3,3\n\n\n"
+                                "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n2,0,3\n\n\n"
+                                "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n77,0,2\n\n\n";
+    static const char *const expected[] = {"rigid bodies 4 and 5 share node 2",
+                                           "set 9 has no members",
+                                           "MSID = 9 is a set of zero segments",
+                                           "MSID = 99 is not a part",
+                                           "SSID = 3 of type 3 holds no shells",
+                                           "MSID = 3 of type 3 holds no shells",
+                                           "thickness of all shells of this contact is zero",
+                                           "there is no set 77",
+                                           "wrong.k: 8 errors"};
+    char text[4000];
+    int length = snprintf(text, sizeof text, "%s%s*END\n", model_head, cards);
+    program_open(&program);
+    program_write(&program, "wrong.k", text, (size_t)length);
+    assert_int_equal(program_run(&program, "run wrong.k"), BILLOW_EXIT_INPUT);
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        if (!strstr(program.err, expected[i])) print_message("%s\nlacks: %s\n", program.err, expected[i]);
+        assert_non_null(strstr(program.err, expected[i]));
+    }
+    program_close(&program);
+}
+
 /* Near, touching and crossing layers are found where they are. */
 static void test_inspection(void **state)
 {
@@ -148,6 +184,7 @@ static void test_inspection(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_cards), cmocka_unit_test(test_wrong_fields),
-                                       cmocka_unit_test(test_wrong_surfaces), cmocka_unit_test(test_inspection)};
+                                       cmocka_unit_test(test_wrong_surfaces), cmocka_unit_test(test_one_list),
+                                       cmocka_unit_test(test_inspection)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
