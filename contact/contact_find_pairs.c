@@ -57,12 +57,9 @@ static void mark_idle(ContactRun *run, const unsigned char *sharp)
     for (int g = 0; g < run->lines.count; g++) {
         ContactLanes *lanes = &run->lines.lanes[g];
         run->lines.idle[g] = 1;
-        run->lines.fresh[g] = 0;
         for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) {
-            bool meets = sharp[lanes->item[k]];
-            if (meets && lanes->side[k] == 0) run->lines.fresh[g] = 1;
-            lanes->side[k] = meets ? run->contact->edge_side[lanes->item[k]] : 0;
-            if (meets) run->lines.idle[g] = 0;
+            lanes->sharp[k] = sharp[lanes->item[k]];
+            if (lanes->sharp[k]) run->lines.idle[g] = 0;
         }
     }
 }
@@ -126,7 +123,7 @@ static void find_groups(ContactLoop *loop, ContactList *list, const ContactGroup
             part->failed = contact_part_add(part, h, loop->restored ? -INFINITY : slack) != 0;
         }
         if (part->failed) return;
-        if (!own->fresh[g]) contact_pairs_remember(list, g, all->fresh, part->pair + first, part->pair_count - first);
+        contact_pairs_remember(list, g, part->pair + first, part->pair_count - first);
     }
 }
 

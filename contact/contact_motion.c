@@ -70,9 +70,8 @@ int contact_groups_create(ContactGroups *groups, const ContactItems *items, cons
     groups->side = memory_alloc(count, 1);
     groups->body = memory_alloc(count, sizeof *groups->body);
     groups->idle = memory_alloc(count, 1);
-    groups->fresh = memory_alloc(count, 1);
     if (!groups->lanes || !groups->start || !groups->node || !groups->velocity || !groups->box || !groups->radius ||
-        !groups->side || !groups->body || !groups->idle || !groups->fresh)
+        !groups->side || !groups->body || !groups->idle)
         return -1;
     for (int g = 0; g < groups->count; g++) {
         int first = g * CONTACT_GROUP, left = items->count - first;
@@ -122,6 +121,5 @@ void contact_groups_free(ContactGroups *groups)
     memory_free(groups->side);
     memory_free(groups->body);
     memory_free(groups->idle);
-    memory_free(groups->fresh);
     *groups = (ContactGroups){0};
 }

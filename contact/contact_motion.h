@@ -65,6 +65,7 @@ typedef struct ContactLanes {
     int32_t side[CONTACT_GROUP];
     int32_t body[CONTACT_GROUP];  /* rigid body; another number for each deformable item */
     int32_t shell[CONTACT_GROUP]; /* element; another number for each item without */
+    int32_t sharp[CONTACT_GROUP]; /* of edges: it meets others */
 } ContactLanes;
 
 typedef struct ContactGroups {
@@ -78,7 +79,6 @@ typedef struct ContactGroups {
     unsigned char *side;         /* of all its items (count) */
     int32_t *body;               /* of all its items, or CONTACT_MIXED (count) */
     unsigned char *idle;         /* none of its items meets anything (count) */
-    unsigned char *fresh;        /* an item of it has begun to with the last search (count) */
 } ContactGroups;
 
 /* Groups of items in an order by contact_patches. 0, or -1 without memory. */

@@ -18,13 +18,12 @@ int contact_first_of(int count, int thread, int threads)
 }
 
 /* A pair that was there before may know better how far apart its groups are. */
-void contact_pairs_remember(const ContactList *list, int group, const unsigned char *fresh, ContactGroupPair *pair,
-                            size_t count)
+void contact_pairs_remember(const ContactList *list, int group, ContactGroupPair *pair, size_t count)
 {
     int32_t old = list->start[group], end = list->start[group + 1];
     for (size_t k = 0; k < count; k++) {
         while (old < end && list->pair[old].other < pair[k].other) old++;
-        if (old < end && list->pair[old].other == pair[k].other && !fresh[pair[k].other])
+        if (old < end && list->pair[old].other == pair[k].other)
             pair[k].slack = fmax(pair[k].slack, list->pair[old].slack);
     }
 }

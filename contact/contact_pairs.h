@@ -10,10 +10,8 @@ int contact_first_of(int count, int thread, int threads);
 /* Adds one to what a thread has found. These return 0, or -1 without memory. */
 int contact_part_add(ContactPart *part, int32_t other, double slack);
 
-/* Pairs of a group just found, ascending: those that were there before keep what slack they had, unless the other is
- * fresh. */
-void contact_pairs_remember(const ContactList *list, int group, const unsigned char *fresh, ContactGroupPair *pair,
-                            size_t count);
+/* Pairs of a group just found, ascending: those that were there before keep what slack they had. */
+void contact_pairs_remember(const ContactList *list, int group, ContactGroupPair *pair, size_t count);
 
 /* Puts what the threads found behind each other. */
 int contact_pairs_join(ContactLoop *loop, ContactList *list, int threads);

@@ -239,7 +239,8 @@ static void edge_distances(const EdgeLanes *e, int i, const EdgeLanes *f, float 
     }
 }
 
-/* As sift_faces; within one group each pair is looked at once. */
+/* As sift_faces; within one group each pair is looked at once. Edges that are not sharp count for the least distance
+ * only: they may be so after the next search. */
 static int sift_edges(const ContactLanes *e, int i, const ContactLanes *f, float limit, float *restrict square,
                       float *restrict least)
 {
@@ -251,8 +252,9 @@ static int sift_edges(const ContactLanes *e, int i, const ContactLanes *f, float
         int out = (f->node[0][k] == a) | (f->node[1][k] == a) | (f->node[0][k] == b) | (f->node[1][k] == b) |
                   (f->body[k] == body) | (f->shell[k] == shell) | ((swapped & side) == 0) | (f->item[k] <= from);
         float s = out ? FLT_MAX : square[k];
-        square[k] = s;
         least[k] = smaller(s, least[k]);
+        s = f->sharp[k] & e->sharp[i] ? s : FLT_MAX;
+        square[k] = s;
         hit |= s <= limit;
     }
     return hit;
