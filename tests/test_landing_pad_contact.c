@@ -62,8 +62,7 @@ static void begins_like_ls_dyna(void **unused)
     }
     assert_true(read_state(0.5, state));
     VerifyRun run;
-    assert_int_equal(verify_build(&run, text, length, &(VerifyOptions){.threads = 2, .every = 500, .stop_time = 0.5}),
-                     0);
+    assert_int_equal(verify_build(&run, text, length, &(VerifyOptions){.every = 500, .stop_time = 0.5}), 0);
     assert_int_equal(verify_loop(&run), 0);
     print_message("    %ld cycles, %.0f us each\n", (long)run.cycles, 1e6 * run.times.total / (double)run.cycles);
     verify_between("cycles", (double)run.cycles, 195e3, 210e3);
