@@ -23,6 +23,8 @@ typedef struct GreenResult {
 #define BILLOW_TINY 1e-280
 /* Squared stretches are kept above this: an element folded to less than 1e-6 of its width pushes no harder. */
 #define BILLOW_LEAST_SQUARED_STRETCH 1e-12
+/* Squared width to length that FORM 0 and 1 follow a point down to (eq. F1a). */
+#define BILLOW_LEAST_SQUARED_ASPECT 2.5e-3
 
 #define BILLOW_LOG2 0.6931471805599453
 
@@ -197,7 +199,7 @@ typedef struct BiotState {
     Pack wide;                /* l1/l2 */
 } BiotState;
 
-/* tr C and det C, kept away from 0. */
+/* tr C and det C, kept away from 0 (eq. F1a). */
 ALWAYS_INLINE Pack biot_trace(PackTensor c)
 {
     return pack_larger(c.a11 + c.a22, pack_of(BILLOW_LEAST_SQUARED_STRETCH));
@@ -205,7 +207,8 @@ ALWAYS_INLINE Pack biot_trace(PackTensor c)
 
 ALWAYS_INLINE Pack biot_determinant(PackTensor c)
 {
-    return pack_larger(c.a11 * c.a22 - c.a12 * c.a12, BILLOW_LEAST_SQUARED_STRETCH * biot_trace(c));
+    Pack trace = biot_trace(c);
+    return pack_larger(c.a11 * c.a22 - c.a12 * c.a12, BILLOW_LEAST_SQUARED_ASPECT * (trace * trace));
 }
 
 /* U = (C + J 1)/tr U with tr U = sqrt(tr C + 2 J) (eq. F1): no eigenvectors. jacobian: J. */

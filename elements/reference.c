@@ -191,8 +191,9 @@ double reference_energy(const ElementGroup *group, const double *geometry, const
     lane_points(group, geometry, corner, point);
     for (int p = 0; p < group->point_count; p++) {
         const double *c = point[p].c;
-        double j = sqrt(fmax(c[0] * c[1] - c[2] * c[2], BILLOW_LEAST_SQUARED_STRETCH));
-        double by_sum = 1.0 / sqrt(fmax(c[0] + c[1], BILLOW_LEAST_SQUARED_STRETCH) + 2.0 * j);
+        double trace = fmax(c[0] + c[1], BILLOW_LEAST_SQUARED_STRETCH);
+        double j = sqrt(fmax(c[0] * c[1] - c[2] * c[2], BILLOW_LEAST_SQUARED_ASPECT * (trace * trace)));
+        double by_sum = 1.0 / sqrt(trace + 2.0 * j);
         double d11 = (c[0] + j) * by_sum - 1.0, d22 = (c[1] + j) * by_sum - 1.0, d12 = c[2] * by_sum; /* U - 1 */
         for (int i = 0; i < 4; i++) {
             double u11 = 1.0 + at[i] * d11, u22 = 1.0 + at[i] * d22, u12 = at[i] * d12;

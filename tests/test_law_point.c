@@ -31,6 +31,34 @@ static void test_stress_is_the_gradient(void **unused)
     }
 }
 
+/* A crumpled corner of a quad that may fold takes the metric's determinant through 0 (F1a): the stress stays bounded
+ * and has no jump. */
+static void test_collapsing_point(void **unused)
+{
+    (void)unused;
+    int seen = 0;
+    for (int k = 0; k < LAW_CASES; k++) {
+        const LawCase *l = &cases[k];
+        if (l->kind != LAW_BIOT) continue;
+        double last[3] = {0}, step = 0, largest = 0;
+        enum { POINTS = 4000 };
+        for (int i = 0; i <= POINTS; i++) {
+            double c[3] = {0.9, 0.1, 0.27 + 0.06 * i / POINTS}; /* det C = 0 at 0.3 */
+            LawPoint p = at(l, c, NULL);
+            for (int j = 0; j < 3; j++) {
+                largest = fmax(largest, fabs(p.stress[j]));
+                if (i > 0) step = fmax(step, fabs(p.stress[j] - last[j]));
+                last[j] = p.stress[j];
+            }
+        }
+        seen++;
+        if (!(largest < 50 * l->law.whole.d11))
+            fail_msg("%s: stress of %g moduli", l->name, largest / l->law.whole.d11);
+        if (!(step < 0.02 * l->law.whole.d11)) fail_msg("%s: a jump of %g moduli", l->name, step / l->law.whole.d11);
+    }
+    assert_true(seen > 0);
+}
+
 /* ---- bound of the frequency ---- */
 
 enum { PATHS = 1000, LEGS = 5, STEPS = 120 };
@@ -225,9 +253,10 @@ static int make_cases(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stress_is_the_gradient), cmocka_unit_test(test_random_paths),
-        cmocka_unit_test(test_unloading_curve),        cmocka_unit_test(test_partial_unloading),
-        cmocka_unit_test(test_reloading_line),         cmocka_unit_test(test_hysteresis_share),
+        cmocka_unit_test(test_stress_is_the_gradient), cmocka_unit_test(test_collapsing_point),
+        cmocka_unit_test(test_random_paths),           cmocka_unit_test(test_unloading_curve),
+        cmocka_unit_test(test_partial_unloading),      cmocka_unit_test(test_reloading_line),
+        cmocka_unit_test(test_hysteresis_share),
     };
     return cmocka_run_group_tests(tests, make_cases, NULL);
 }
