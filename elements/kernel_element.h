@@ -188,6 +188,17 @@ ALWAYS_INLINE int count_streams(const KernelInput *input, int block)
     return PACKS * (left < BLOCKS_AT_ONCE ? left : BLOCKS_AT_ONCE);
 }
 
+/* The natural stresses of elements with one point. Full streams have their stages unrolled, as their number is known;
+ * at the end of a chunk the rest goes one by one. */
+ALWAYS_INLINE void stream_stress(int mode, const LawInput *in, int streams, const PointPlace *point, PointPack *p)
+{
+    if (streams == STREAMS) {
+        natural_stress(mode, true, in, STREAMS, point, p);
+        return;
+    }
+    for (int i = 0; i < streams; i++) natural_stress(mode, true, in, 1, point + i, p + i);
+}
+
 ALWAYS_INLINE Pack dot(const Pack a[3], const Pack b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

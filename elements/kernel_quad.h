@@ -199,7 +199,7 @@ ALWAYS_INLINE void quad_full_pack(int mode, const KernelInput *input, const LawI
 #pragma GCC unroll 4
     for (int i = 0; i < QUAD_POINTS; i++) {
         point[i] = point_place(&place, i);
-        p[i].c = material_metric(point[i].point, g[i]);
+        p[i].c = p[i].change = material_metric(point[i].point, g[i]); /* the change is read with DAMP only */
     }
     if (KEEPS_HISTORY(mode, in) && in->law.damping > 0.0) {
         quad_metrics(mode, &change, g);
@@ -292,7 +292,7 @@ ALWAYS_INLINE void quad_one_blocks(int mode, const KernelInput *input, ChunkSums
             p[i].c = material_metric(
                 place[i].geometry, one_point_metric(tail + GEOMETRY_TAIL_SIZE * LANES, &quad[i], i, &glass[i], &packs));
         }
-        natural_stress(mode, true, &in, streams, point, p);
+        stream_stress(mode, &in, streams, point, p);
         for (int i = 0; i < streams; i++) {
             one_point_forces(&p[i].p, &glass[i], &quad[i]);
             quad_add(input, &place[i], &quad[i]);

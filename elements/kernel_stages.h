@@ -169,7 +169,8 @@ ALWAYS_INLINE PackTensor with_history(bool one_point, bool energy_is_work, const
     return one_point ? keep_history(energy_is_work, in, place, s, p) : add_damping(in, place, p->change, s);
 }
 
-/* FORM 0 and 1 (eq. F1 to F7) from C to the natural stress: a stage for each root. */
+/* FORM 0 and 1 (eq. F1 to F7) from C to the natural stress: a stage for each root. count: known where this is
+ * inlined. */
 ALWAYS_INLINE void natural_stress_biot(int mode, bool one_point, const LawInput *in, int count, const PointPlace *place,
                                        PointPack *restrict p)
 {
@@ -178,19 +179,23 @@ ALWAYS_INLINE void natural_stress_biot(int mode, bool one_point, const LawInput 
     Pack square[STREAMS], root[STREAMS], jacobian[STREAMS], by_jacobian[STREAMS], major;
     int whole = (count + PACKS_TOGETHER - 1) / PACKS_TOGETHER * PACKS_TOGETHER;
     for (int i = count; i < whole; i++) square[i] = pack_of(1.0);
+#pragma GCC unroll 4
     for (int i = 0; i < count; i++) square[i] = biot_determinant(p[i].c);
     pack_reciprocal_roots(whole, square, by_jacobian);
+#pragma GCC unroll 4
     for (int i = 0; i < count; i++) {
         jacobian[i] = square[i] * by_jacobian[i];
         square[i] = biot_trace(p[i].c) + 2.0 * jacobian[i];
     }
     pack_reciprocal_roots(whole, square, root);
+#pragma GCC unroll 4
     for (int i = 0; i < count; i++) {
         state[i] = biot_state_from(p[i].c, jacobian[i], by_jacobian[i], root[i]);
         t[i] = biot_elastic(&in->law.fabric, state[i].stretch);
         if (mode & MODE_TENSION_FIELD) square[i] = radius_square(t[i]);
     }
     if (mode & MODE_TENSION_FIELD) pack_reciprocal_roots(whole, square, root);
+#pragma GCC unroll 4
     for (int i = 0; i < count; i++) {
         if (mode & MODE_TENSION_FIELD)
             t[i] = remove_compression(t[i], square[i], root[i], &major);

@@ -80,7 +80,7 @@ ALWAYS_INLINE void triangle_blocks(int mode, const KernelInput *input, ChunkSums
             triangle_area(input, &place[i], lane_values(place[i].tail, GEOMETRY_SIGN), i, &t[i], &packs);
             p[i].c = triangle_metric(place[i].geometry, &t[i]);
         }
-        natural_stress(mode, true, &in, streams, point, p);
+        stream_stress(mode, &in, streams, point, p);
         for (int i = 0; i < streams; i++) {
             triangle_forces(&p[i].p, &t[i]);
             triangle_add(input, &place[i], &t[i]);
