@@ -15,7 +15,8 @@ static double clock_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void contact_follow_groups(ContactLoop *loop, int thread, int threads)
+/* Velocities of a thread's share of the groups in pairs, now. */
+static void follow_groups(ContactLoop *loop, int thread, int threads)
 {
     for (int i = 0; i < loop->model->contact_count; i++) {
         ContactRun *run = &loop->runs[i];
@@ -241,7 +242,7 @@ void contact_follow(ContactLoop *loop, int thread, int threads, double pending)
         }
         loop->motions[c] = sum;
     }
-    contact_follow_groups(loop, thread, threads);
+    follow_groups(loop, thread, threads);
     if (loop->model->blockage) share_blocked(loop, thread, threads);
     if (thread == 0) loop->pending = true;
 }

@@ -89,7 +89,6 @@ static void fill_speeds(ContactLoop *loop)
         fastest = fmax(fastest, motion->fastest);
     }
     loop->fastest = sqrt(fastest);
-    contact_follow_groups(loop, 0, 1);
 }
 
 /* Can two nodes have come nearer by the skin since the last search? */

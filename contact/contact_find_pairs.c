@@ -82,7 +82,7 @@ static void place_groups(ContactLoop *loop, ContactRun *run, int thread, int thr
     ContactGroups *all[3] = {&run->nodes, &run->triangles, &run->lines};
     int triangles = run->contact->triangle_count;
     for (int k = 0; k < 3; k++)
-        contact_groups_place(all[k], x, contact_first_of(all[k]->count, thread, threads),
+        contact_groups_place(all[k], x, loop->state->v, contact_first_of(all[k]->count, thread, threads),
                              contact_first_of(all[k]->count, thread + 1, threads));
     fill_planes(run, x, contact_first_of(triangles, thread, threads), contact_first_of(triangles, thread + 1, threads));
 }
@@ -127,6 +127,14 @@ static void find_groups(ContactLoop *loop, ContactList *list, const ContactGroup
     }
 }
 
+/* The velocities of groups in pairs are kept from now on. */
+static void watch(const ContactList *list, ContactGroups *own, ContactGroups *all)
+{
+    for (int g = 0; g < list->group_count; g++)
+        for (int32_t k = list->start[g]; k < list->start[g + 1]; k++)
+            own->watched[g] = all->watched[list->pair[k].other] = 1;
+}
+
 static void wait_for(Team *team)
 {
     if (team) team_barrier(team);
@@ -151,13 +159,19 @@ static void find_pairs(ContactLoop *loop, ContactRun *run, int thread, Team *tea
         mark_idle(run, sharp);
         if (contact_pairs_join(loop, &run->faces, threads) || (edges > 0 && fill_grid(loop, &run->lines)))
             loop->out_of_memory = true;
+        else
+            watch(&run->faces, &run->nodes, &run->triangles);
     }
     if (edges == 0) return;
     wait_for(team);
     if (loop->out_of_memory) return;
     find_groups(loop, &run->edges, &run->lines, &run->lines, thread, threads);
     wait_for(team);
-    if (thread == 0 && contact_pairs_join(loop, &run->edges, threads)) loop->out_of_memory = true;
+    if (thread != 0) return;
+    if (contact_pairs_join(loop, &run->edges, threads))
+        loop->out_of_memory = true;
+    else
+        watch(&run->edges, &run->lines, &run->lines);
 }
 
 void contact_find_pairs(ContactLoop *loop, int thread, Team *team)

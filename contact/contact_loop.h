@@ -192,9 +192,6 @@ void contact_store(ContactLoop *loop); /* thread 0: memory and loads into the St
 /* All threads: new pairs of groups at State.contact_searched. */
 void contact_search(ContactLoop *loop, int thread, Team *team);
 
-/* Velocities of a thread's share of all groups, now. */
-void contact_follow_groups(ContactLoop *loop, int thread, int threads);
-
 /* Fills room; elements, rest: (w dt)^2 that elements may have, and that they leave in their plane. */
 void contact_fill_room(ContactLoop *loop, const double *x, double elements, double rest);
 

@@ -70,8 +70,9 @@ int contact_groups_create(ContactGroups *groups, const ContactItems *items, cons
     groups->side = memory_alloc(count, 1);
     groups->body = memory_alloc(count, sizeof *groups->body);
     groups->idle = memory_alloc(count, 1);
+    groups->watched = memory_alloc(count, 1);
     if (!groups->lanes || !groups->start || !groups->node || !groups->velocity || !groups->box || !groups->radius ||
-        !groups->side || !groups->body || !groups->idle)
+        !groups->side || !groups->body || !groups->idle || !groups->watched)
         return -1;
     for (int g = 0; g < groups->count; g++) {
         int first = g * CONTACT_GROUP, left = items->count - first;
@@ -80,28 +81,34 @@ int contact_groups_create(ContactGroups *groups, const ContactItems *items, cons
     return 0;
 }
 
-void contact_groups_place(ContactGroups *groups, const double *x, int first, int end)
+static void find_velocities(ContactGroups *groups, const double *v, int g)
+{
+    ContactBox box;
+    contact_box_start(&box, v + 3 * (ptrdiff_t)groups->node[groups->start[g]]);
+    for (int32_t k = groups->start[g] + 1; k < groups->start[g + 1]; k++)
+        contact_box_add(&box, v + 3 * (ptrdiff_t)groups->node[k]);
+    for (int k = 0; k < 3; k++) {
+        groups->velocity[g].low[k] = (float)(box.low[k] - 1e-6 * fabs(box.low[k]));
+        groups->velocity[g].high[k] = (float)(box.high[k] + 1e-6 * fabs(box.high[k]));
+    }
+}
+
+void contact_groups_place(ContactGroups *groups, const double *x, const double *v, int first, int end)
 {
     for (int g = first; g < end; g++) {
         ContactBox *box = &groups->box[g];
         contact_box_start(box, x + 3 * (ptrdiff_t)groups->node[groups->start[g]]);
         for (int32_t k = groups->start[g] + 1; k < groups->start[g + 1]; k++)
             contact_box_add(box, x + 3 * (ptrdiff_t)groups->node[k]);
+        find_velocities(groups, v, g);
+        groups->watched[g] = 0;
     }
 }
 
 void contact_groups_follow(ContactGroups *groups, const double *v, int first, int end)
 {
-    for (int g = first; g < end; g++) {
-        ContactBox box;
-        contact_box_start(&box, v + 3 * (ptrdiff_t)groups->node[groups->start[g]]);
-        for (int32_t k = groups->start[g] + 1; k < groups->start[g + 1]; k++)
-            contact_box_add(&box, v + 3 * (ptrdiff_t)groups->node[k]);
-        for (int k = 0; k < 3; k++) {
-            groups->velocity[g].low[k] = (float)(box.low[k] - 1e-6 * fabs(box.low[k]));
-            groups->velocity[g].high[k] = (float)(box.high[k] + 1e-6 * fabs(box.high[k]));
-        }
-    }
+    for (int g = first; g < end; g++)
+        if (groups->watched[g]) find_velocities(groups, v, g);
 }
 
 bool contact_groups_meet(const ContactGroups *a, int g, const ContactGroups *b, int h)
@@ -121,5 +128,6 @@ void contact_groups_free(ContactGroups *groups)
     memory_free(groups->side);
     memory_free(groups->body);
     memory_free(groups->idle);
+    memory_free(groups->watched);
     *groups = (ContactGroups){0};
 }

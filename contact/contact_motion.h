@@ -79,13 +79,16 @@ typedef struct ContactGroups {
     unsigned char *side;         /* of all its items (count) */
     int32_t *body;               /* of all its items, or CONTACT_MIXED (count) */
     unsigned char *idle;         /* none of its items meets anything (count) */
+    unsigned char *watched;      /* it is in a pair: its velocity is kept (count) */
 } ContactGroups;
 
 /* Groups of items in an order by contact_patches. 0, or -1 without memory. */
 int contact_groups_create(ContactGroups *groups, const ContactItems *items, const int32_t *order);
 
-/* Boxes of the groups [first, end) at positions x; their velocities. */
-void contact_groups_place(ContactGroups *groups, const double *x, int first, int end);
+/* At a search: boxes of the groups [first, end) at positions x, their velocities; none is watched yet. */
+void contact_groups_place(ContactGroups *groups, const double *x, const double *v, int first, int end);
+
+/* Velocities of the watched groups of [first, end). */
 void contact_groups_follow(ContactGroups *groups, const double *v, int first, int end);
 
 /* Can an item of group g meet one of group h? */

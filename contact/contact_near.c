@@ -56,9 +56,18 @@ static int merge_memories(const ContactList *list, int owner, int32_t *other, in
     return count;
 }
 
+static bool remembers(const ContactList *list, const ContactLanes *lanes)
+{
+    for (int i = 0; i < CONTACT_GROUP && lanes->item[i] >= 0; i++)
+        if (list->held[lanes->item[i]]) return true;
+    return false;
+}
+
 int contact_sort_near(ContactPart *part, const ContactList *list, const ContactLanes *lanes,
                       int start[CONTACT_GROUP + 1])
 {
+    start[CONTACT_GROUP] = 0;
+    if (part->near_count == 0 && !remembers(list, lanes)) return 0;
     int of_owner[CONTACT_GROUP] = {0}, place[CONTACT_GROUP], sum = 0, kept = 0;
     if (memory_reserve((void **)&part->other, &part->other_capacity,
                        part->near_count + (size_t)CONTACT_GROUP * CONTACT_SLOTS, sizeof *part->other))
