@@ -21,7 +21,8 @@ typedef struct TableRange {
 static int cut_segments(Builder *b)
 {
     Model *m = b->model;
-    int count = 0, length = m->chunk_count / BILLOW_LEAST_SEGMENTS;
+    int count = 0, least = m->contact_count > 0 ? BILLOW_CONTACT_SEGMENTS : BILLOW_LEAST_SEGMENTS;
+    int length = m->chunk_count / least;
     length = length < 1 ? 1 : length > BILLOW_SEGMENT_CHUNKS ? BILLOW_SEGMENT_CHUNKS : length;
     for (int g = 0; g < m->group_count; g++) {
         int chunks = (m->groups[g].block_count + BILLOW_CHUNK - 1) / BILLOW_CHUNK;

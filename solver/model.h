@@ -76,9 +76,10 @@ typedef struct ElementGroup {
 } ElementGroup;
 
 enum {
-    BILLOW_CHUNK = 16,         /* blocks in one fixed partial sum */
-    BILLOW_SEGMENT_CHUNKS = 4, /* chunks in one segment at most: long ones have fewer rows */
-    BILLOW_LEAST_SEGMENTS = 32 /* of a model, where chunks allow it: so that threads get equal shares */
+    BILLOW_CHUNK = 16,           /* blocks in one fixed partial sum */
+    BILLOW_SEGMENT_CHUNKS = 4,   /* chunks in one segment at most: long ones have fewer rows */
+    BILLOW_LEAST_SEGMENTS = 8,   /* of a model, where chunks allow it: so that threads get equal shares */
+    BILLOW_CONTACT_SEGMENTS = 32 /* the same with contact, where elements without a law cost next to nothing */
 };
 
 /* A set of pressures that act together on a surface: net pressure = sum of sign * source pressure. */
