@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/real_deck.h"
+
 #define FOLDER BILLOW_SHARED_DIR "/decks/landing-pad-closed/"
 
 enum { STATES = 200 };
@@ -45,19 +47,6 @@ static int read_reference(Reference *reference)
     return reference->count > 80 ? 0 : -1;
 }
 
-static char *read_text(const char *path, size_t *length)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file) return NULL;
-    fseek(file, 0, SEEK_END);
-    *length = (size_t)ftell(file);
-    rewind(file);
-    char *text = malloc(*length + 1);
-    if (text && fread(text, 1, *length, file) != *length) *length = 0;
-    fclose(file);
-    return text;
-}
-
 /* Largest difference up to a time as a share of the history's peak, in percent. */
 static double difference(const VerifyRun *run, const Reference *reference, int channel, double until)
 {
@@ -83,7 +72,7 @@ static void agrees_with_ls_dyna(void **state)
     (void)state;
     Reference reference = {0};
     size_t length = 0;
-    char *text = read_text(FOLDER "deck.k", &length);
+    char *text = real_deck_read(FOLDER "deck.k", &length);
     if (!text || read_reference(&reference)) {
         print_message("skipped: the decks of others are not beside this checkout\n");
         free(text);

@@ -13,20 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FOLDER BILLOW_SHARED_DIR "/decks/landing-pad-wang-nefske/"
+#include "tests/real_deck.h"
 
-static char *read_text(size_t *length)
-{
-    FILE *file = fopen(FOLDER "deck.k", "rb");
-    if (!file) return NULL;
-    fseek(file, 0, SEEK_END);
-    *length = (size_t)ftell(file);
-    rewind(file);
-    char *text = malloc(*length + 1);
-    if (text && fread(text, 1, *length, file) != *length) *length = 0;
-    fclose(file);
-    return text;
-}
+#define FOLDER BILLOW_SHARED_DIR "/decks/landing-pad-wang-nefske/"
 
 /* LS-DYNA's state closest to a time: volume, pressure, mass. */
 static bool read_state(double at, double state[3])
@@ -54,7 +43,7 @@ static void begins_like_ls_dyna(void **unused)
 {
     (void)unused;
     size_t length = 0;
-    char *text = read_text(&length);
+    char *text = real_deck_read(FOLDER "deck.k", &length);
     double state[3] = {0};
     if (!text) {
         print_message("skipped: the decks of others are not beside this checkout\n");

@@ -13,21 +13,9 @@
 #include <string.h>
 
 #include "tests/program.h"
+#include "tests/real_deck.h"
 
 #define FOLDER BILLOW_SHARED_DIR "/decks/landing-pad-ring-wall/"
-
-static char *read_text(size_t *length)
-{
-    FILE *file = fopen(FOLDER "deck.k", "rb");
-    if (!file) return NULL;
-    fseek(file, 0, SEEK_END);
-    *length = (size_t)ftell(file);
-    rewind(file);
-    char *text = malloc(*length + 1);
-    if (text && fread(text, 1, *length, file) != *length) *length = 0;
-    fclose(file);
-    return text;
-}
 
 /* Largest relative difference of volume and pressure over the states from time from to time until. */
 static int compare(const VerifyRun *run, double from, double until, double off[2])
@@ -54,7 +42,7 @@ static void agrees_with_ls_dyna(void **state)
 {
     (void)state;
     size_t length = 0;
-    char *text = read_text(&length);
+    char *text = real_deck_read(FOLDER "deck.k", &length);
     if (!text) {
         print_message("skipped: the decks of others are not beside this checkout\n");
         skip();
