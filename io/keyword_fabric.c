@@ -45,7 +45,7 @@ static const FieldSpec card5_fields[] = {
     CARD_GAP,
     CARD_GAP,
     CARD_REAL("BETA", fabric.beta, USED, NONE),
-    CARD_INT("ISREFG", fabric.isrefg, LISTED, NONE),
+    CARD_REAL("ISREFG", fabric.isrefg, USED, NONE),
 };
 static const FieldSpec card6_fields[] = {
     CARD_INT("LCA", fabric.lca, USED, ID_FUNCTION),   CARD_INT("LCB", fabric.lcb, USED, ID_FUNCTION),
@@ -149,7 +149,8 @@ static const KeywordSpec specs[] = {
          "airbag switches on; FLC < 0, FAC < 0 and ELA < 0 name curves; where X0 is neither 0 nor 1 FLC and FAC are X2 "
          "and X3. LNRC, RGBRTH and TSRFAC act on a reference geometry (docs/theory.md): LNRC = 1 with CSE = 1 only, 0 "
          "< TSRFAC < "
-         "1 and TSRFAC < 0 (minus a curve) by cycle, TSRFAC >= 1 a curve over time. ISREFG has no effect."},
+         "1 and TSRFAC < 0 (minus a curve) by cycle, TSRFAC >= 1 a curve over time. ISREFG = 1 with FORM = 12 keeps "
+         "the initial tension from the start on."},
 };
 
 const KeywordFamily keyword_family_fabric = {"Fabric", specs, (int)(sizeof specs / sizeof *specs)};

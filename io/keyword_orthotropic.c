@@ -58,21 +58,15 @@ static const FieldSpec map1_fields[] = {
     CARD_REAL("TH", th, USED, NONE),
 };
 static const FieldSpec map2_fields[] = {
-    CARD_REAL("FVOPT", material.fabric.fvopt, USED, NONE),
-    CARD_REAL("X0", material.fabric.x0, USED, NONE),
-    CARD_REAL("X1", material.fabric.x1, USED, NONE),
-    CARD_REAL("FLC/X2", material.fabric.flc, USED, NONE),
+    CARD_REAL("FVOPT", material.fabric.fvopt, USED, NONE), CARD_REAL("X0", material.fabric.x0, USED, NONE),
+    CARD_REAL("X1", material.fabric.x1, USED, NONE),       CARD_REAL("FLC/X2", material.fabric.flc, USED, NONE),
     CARD_REAL("FAC/X3", material.fabric.fac, USED, NONE),
-    CARD_REAL("ISREFG", isrefg, LISTED, NONE),
-    CARD_REAL("CSE", cse, USED, NONE),
-    CARD_INT("SRFAC", srfac, LISTED, ID_FUNCTION),
 };
 static const FieldSpec map3_fields[] = {
-    CARD_REAL("BULKC", bulkc, REFUSED, PRESSURE),
-    CARD_REAL("JACC", jacc, LISTED, NONE),
-    CARD_INT("FXX", fxx, REFUSED, ID_FUNCTION),
-    CARD_INT("FYY", fyy, REFUSED, ID_FUNCTION),
-    CARD_REAL("DT", dt, LISTED, TIME),
+    CARD_REAL("ISREFG", isrefg, USED, NONE),     CARD_REAL("CSE", cse, USED, NONE),
+    CARD_INT("SRFAC", srfac, USED, ID_FUNCTION), CARD_REAL("BULKC", bulkc, REFUSED, PRESSURE),
+    CARD_REAL("JACC", jacc, LISTED, NONE),       CARD_INT("FXX", fxx, REFUSED, ID_FUNCTION),
+    CARD_INT("FYY", fyy, REFUSED, ID_FUNCTION),  CARD_REAL("DT", dt, LISTED, TIME),
 };
 static const FieldSpec map4_fields[] = {
     CARD_REAL("AOPT", material.fabric.aopt, USED, NONE),
@@ -161,6 +155,8 @@ static void read_map(KeywordRead *read)
     f->form = 24;
     f->is_map = true;
     f->cse = card.cse;
+    f->isrefg = card.isrefg;
+    f->tsrfac = card.srfac; /* a curve over time, as TSRFAC >= 1 */
     f->h = -card.th;
     store(read, &card);
 }
@@ -184,8 +180,10 @@ static const KeywordSpec specs[] = {
      .remark =
          "PXX and PYY as curves, engineering stress over engineering strain of one fibre; tables over both strains are "
          "refused. SXY is a curve over the tensor component of Green's strain. -TH is the share of energy that a cycle "
-         "dissipates. Fabric compaction (BULKC) and strain rates (FXX, FYY) are refused; ECOAT, SCOAT and TCOAT give "
-         "bending, which a membrane has not."},
+         "dissipates. ISREFG = 1 keeps the initial tension of a reference geometry, SRFAC brings it back as TSRFAC >= "
+         "1 of "
+         "*MAT_FABRIC does. Fabric compaction (BULKC) and strain rates (FXX, FYY) are refused; ECOAT, SCOAT and TCOAT "
+         "give bending, which a membrane has not."},
 };
 
 const KeywordFamily keyword_family_orthotropic = {"Orthotropic membranes", specs, (int)(sizeof specs / sizeof *specs)};

@@ -8,6 +8,7 @@ static void write_group(const Model *model, const ElementGroup *group, FILE *str
             group->element_count, group->corner_count == 3 ? "triangles" : "quadrilaterals", group->birth,
             group->rdt ? "reference" : "current");
     if (group->rule.liner_waits) fprintf(stream, ", liners wait until taut (LNRC)");
+    if (group->rule.keeps_tension) fprintf(stream, ", with its initial tension (ISREFG)");
     if (group->rule.restore != RESTORE_NEVER) fprintf(stream, ", initial tension comes back (TSRFAC)");
     fputc('\n', stream);
 }

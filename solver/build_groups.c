@@ -174,7 +174,8 @@ static int fill_group(Builder *b, ElementGroup *group, int first)
         if (e < group->element_count && record < b->shell_count) m->element_slot[record] = group->first_element + e;
     }
     group->node = node;
-    int status = fill_geometry(b, group, first, GEOMETRY_REFERENCE, &group->geometry);
+    int status = fill_geometry(b, group, first, group->rule.keeps_tension ? GEOMETRY_TENSION : GEOMETRY_REFERENCE,
+                               &group->geometry);
     if (status >= 0 && group->has_reference && group->birth > 0.0) {
         int mesh = fill_geometry(b, group, first, GEOMETRY_MESH, &group->mesh_geometry);
         status = mesh < 0 ? mesh : status | mesh;
@@ -230,13 +231,16 @@ int build_groups(Builder *b)
     return status || build_rows(b) ? -1 : 0;
 }
 
-/* The largest squared frequency of an element: before and after the birth of its reference geometry. */
+/* The largest squared frequency of an element: before and after the birth of its reference geometry, with its initial
+ * tension where that comes back or stays. */
 static double scaling_rate(const Builder *b, int record)
 {
     const ShellRecord *r = &b->records[record];
+    const ReferenceRule *rule = &b->parts[r->part].reference_rule;
+    const bool tension = rule->keeps_tension || rule->restore != RESTORE_NEVER;
     double largest = 0.0, x[12];
     if (!(r->mass > 0.0)) return 0.0;
-    for (Geometry which = GEOMETRY_MESH; which <= GEOMETRY_REFERENCE; which++) {
+    for (Geometry which = GEOMETRY_MESH; which <= (tension ? GEOMETRY_TENSION : GEOMETRY_REFERENCE); which++) {
         if (which == GEOMETRY_MESH && r->reference > 0 && b->references[record].birth <= 0.0) continue;
         ElementInput input = record_input(b, record, b->x, which, x);
         double rate = geometry_rate(&input);

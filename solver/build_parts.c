@@ -49,7 +49,30 @@ static int fabric_axis(Builder *b, const MaterialDefinition *m, PartRecord *part
     return 0;
 }
 
-/* RGBRTH, LNRC and TSRFAC: what becomes of a reference geometry. */
+/* ISREFG: is the initial tension there from the start? */
+static int fabric_tension(Builder *b, const MaterialDefinition *m, bool first_use, ReferenceRule *rule)
+{
+    const FabricCard *f = &m->fabric;
+    if (f->isrefg != 0.0 && f->isrefg != 1.0) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, m->keyword, "ISREFG = %g is not known; use 0 or 1",
+                        f->isrefg);
+        return -1;
+    }
+    rule->keeps_tension = f->isrefg == 1.0 && (f->is_map || f->form == 12);
+    if (f->isrefg == 1.0 && !rule->keeps_tension && first_use)
+        diagnostics_add(
+            b->diagnostics, SEVERITY_WARNING, m->source, m->keyword,
+            "ISREFG = 1 acts with FORM = 12 only, here FORM = %d: the initial tension is left out; use FORM "
+            "12, or TSRFAC to bring it back",
+            f->form);
+    if (rule->keeps_tension && f->tsrfac != 0.0 && first_use)
+        diagnostics_add(b->diagnostics, SEVERITY_WARNING, m->source, m->keyword,
+                        "%s = %g has no effect beside ISREFG = 1: all of the initial tension acts from the start",
+                        f->is_map ? "SRFAC" : "TSRFAC", f->tsrfac);
+    return 0;
+}
+
+/* RGBRTH, ISREFG, LNRC and TSRFAC: what becomes of a reference geometry. */
 static int fabric_reference(Builder *b, const MaterialDefinition *m, bool first_use, PartRecord *part)
 {
     const FabricCard *f = &m->fabric;
@@ -59,10 +82,11 @@ static int fabric_reference(Builder *b, const MaterialDefinition *m, bool first_
     part->reference_birth = f->rgbrth;
     rule->curve = -1;
     if (b->definitions->reference_blocks.count == 0) {
-        if (first_use && (f->lnrc != 0.0 || f->tsrfac != 0.0 || f->rgbrth != 0.0))
+        if (first_use && (f->lnrc != 0.0 || f->tsrfac != 0.0 || f->rgbrth != 0.0 || f->isrefg != 0.0))
             diagnostics_add(b->diagnostics, SEVERITY_NOTE, m->source, m->keyword,
-                            "LNRC = %g, TSRFAC = %g and RGBRTH = %g are not used: there is no reference geometry",
-                            f->lnrc, f->tsrfac, f->rgbrth);
+                            "LNRC = %g, %s = %g, ISREFG = %g and RGBRTH = %g are not used: there is no reference "
+                            "geometry",
+                            f->lnrc, f->is_map ? "SRFAC" : "TSRFAC", f->tsrfac, f->isrefg, f->rgbrth);
         return 0;
     }
     if (f->lnrc != 0.0 && f->lnrc != 1.0) {
@@ -78,13 +102,15 @@ static int fabric_reference(Builder *b, const MaterialDefinition *m, bool first_
         return -1;
     }
     rule->liner_waits = f->lnrc == 1.0 && has_liner;
-    if (f->tsrfac == 0.0) return 0;
+    if (fabric_tension(b, m, first_use, rule)) return -1;
+    if (f->tsrfac == 0.0 || rule->keeps_tension) return 0;
     rule->restore = f->tsrfac >= 1.0 ? RESTORE_BY_TIME : RESTORE_BY_CYCLE;
     if (f->tsrfac > 0.0 && f->tsrfac < 1.0) {
         rule->factor = f->tsrfac;
         return 0;
     }
-    rule->curve = deck_index_curve(&b->index, (int)fabs(f->tsrfac), "TSRFAC", m->source, m->keyword, b->diagnostics);
+    rule->curve = deck_index_curve(&b->index, (int)fabs(f->tsrfac), f->is_map ? "SRFAC" : "TSRFAC", m->source,
+                                   m->keyword, b->diagnostics);
     return rule->curve < 0 ? -1 : 0;
 }
 

@@ -24,7 +24,7 @@ typedef struct PartRecord {
     double density, area_density;   /* area_density: MAREA */
     bool has_reference;             /* its elements may have a reference geometry */
     double reference_birth;         /* RGBRTH, 0: the birth of the reference geometry's card */
-    ReferenceRule reference_rule;   /* LNRC, TSRFAC */
+    ReferenceRule reference_rule;   /* LNRC, ISREFG, TSRFAC */
     const ErosionCriteria *erosion; /* NULL: its shells do not erode */
 } PartRecord;
 

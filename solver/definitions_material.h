@@ -19,7 +19,7 @@ typedef enum MaterialKind {
 } MaterialKind;
 
 /* *MAT_FABRIC (MAT_034): every field of the cards, names as in the manual; *MAT_FABRIC_MAP's PXX, PYY and SXY are in
- * lca, lcb and lcab. */
+ * lca, lcb and lcab, its SRFAC in tsrfac. */
 typedef struct FabricCard {
     bool is_map;
     double ea, eb, prba, prab;
@@ -27,8 +27,7 @@ typedef struct FabricCard {
     double aopt, flc, fac, ela, lnrc, fvopt, tsrfac;
     int form;
     double rgbrth, a0ref, a1, a2, a3, x0, x1;
-    double v1, v2, v3, beta;
-    int isrefg;
+    double v1, v2, v3, beta, isrefg;
     int lca, lcb, lcab, lcua, lcub, lcuab; /* forms 4, 14, -14, 24 */
     double rl;
     int lcaa, lcbb; /* form -14 */

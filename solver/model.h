@@ -38,9 +38,10 @@ typedef enum ElementKind {
     ELEMENT_QUAD_ONE,  /* 4-node, one point and hourglass control */
 } ElementKind;
 
-/* What becomes of a reference geometry: LNRC and TSRFAC of *MAT_FABRIC (docs/theory.md, Reference geometry). */
+/* What becomes of a reference geometry: LNRC, ISREFG and TSRFAC of *MAT_FABRIC (docs/theory.md, Reference geometry). */
 typedef struct ReferenceRule {
-    bool liner_waits; /* no compression before the fabric is taut for the first time */
+    bool liner_waits;   /* no compression before the fabric is taut for the first time */
+    bool keeps_tension; /* the initial tension is there from birth on */
     enum { RESTORE_NEVER, RESTORE_BY_CYCLE, RESTORE_BY_TIME } restore; /* of the initial tension */
     double factor; /* of RESTORE_BY_CYCLE, unless curve >= 0 gives it */
     int curve;     /* index into Model.curves, -1 none */

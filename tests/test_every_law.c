@@ -65,8 +65,8 @@ static void write_material(char *text, const Law *l, double angle)
         n = snprintf(text, MATERIAL_LENGTH, "*MAT_OGDEN_RUBBER\n1,1000.,.495\n6.3e5,1.2e3,-1e4\n1.3,5,-2\n");
     } else if (l->kind == MAP) {
         n = snprintf(text, MATERIAL_LENGTH,
-                     "*MAT_FABRIC_MAP\n1,1000.,101,102,106,,%s\n,,,,,,%d\n\n2.\n,,,1.,0.,0.\n,,,,,,%g\n", l->card7,
-                     l->cse, angle);
+                     "*MAT_FABRIC_MAP\n1,1000.,101,102,106,,%s\n\n,%d\n2.\n,,,1.,0.,0.\n,,,,,,%g\n", l->card7, l->cse,
+                     angle);
     } else if (l->kind == GREEN && l->form == 0) {
         n = snprintf(text, MATERIAL_LENGTH,
                      "*MAT_ORTHOTROPIC_ELASTIC\n1,1000.,3e8,2e8,2e8,.133333333333333333\n1.e7,1e7,1e7,2.\n"

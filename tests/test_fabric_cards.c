@@ -111,6 +111,25 @@ static void test_unloading_curves(void **unused)
     EXPECT(text, SEVERITY_WARNING, "19: PRBA and PRAB have no effect");
 }
 
+/* MAT_FABRIC_MAP as its manual's cards are: ISREFG, CSE and SRFAC begin card 3, before BULKC. */
+static void test_map_cards(void **unused)
+{
+    (void)unused;
+    const char curve[] = "*DEFINE_CURVE\n1\n0.,0.\n.1,1e7\n";
+    char text[1000];
+    snprintf(text, sizeof text, "*MAT_FABRIC_MAP\n1,1.,1,1,1\n\n0,1,0,1e6,0,3,4\n0\n\n\n%s", curve);
+    EXPECT(text, SEVERITY_ERROR, "21: card 3: BULKC (value 4)", "14: part 1 names material");
+    snprintf(text, sizeof text, "*MAT_FABRIC_MAP\n1,1.,1,1,1\n\n2,1\n0\n\n\n%s%s", curve,
+             "*AIRBAG_REFERENCE_GEOMETRY\n1,0,0,0\n");
+    EXPECT(text, SEVERITY_ERROR, "19: ISREFG = 2");
+    snprintf(text, sizeof text, "*MAT_FABRIC\n1,1.,3e8\n0\n0,,,,,2\n0\n,,,,,,,1\n%s",
+             "*AIRBAG_REFERENCE_GEOMETRY\n1,0,0,0\n");
+    EXPECT(text, SEVERITY_WARNING, "19: ISREFG = 1 acts with FORM = 12 only, here FORM = 2");
+    snprintf(text, sizeof text, "*MAT_FABRIC_MAP\n1,1.,1,1,1\n\n1,1,1\n0\n\n\n%s%s", curve,
+             "*AIRBAG_REFERENCE_GEOMETRY\n1,0,0,0\n");
+    EXPECT(text, SEVERITY_WARNING, "19: SRFAC = 1 has no effect beside ISREFG = 1");
+}
+
 /* From outside: exit code 2, and every message with file and line. */
 static void test_exit_code(void **unused)
 {
@@ -131,10 +150,8 @@ static void test_exit_code(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_moduli),
-        cmocka_unit_test(test_bad_curves),
-        cmocka_unit_test(test_unloading_curves),
-        cmocka_unit_test(test_exit_code),
+        cmocka_unit_test(test_moduli),    cmocka_unit_test(test_bad_curves), cmocka_unit_test(test_unloading_curves),
+        cmocka_unit_test(test_map_cards), cmocka_unit_test(test_exit_code),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

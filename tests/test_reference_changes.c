@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "solver/memory.h"
@@ -15,7 +16,7 @@
 static const double E = 1e8, NU = 0.3, THICKNESS = 1e-3;
 
 /* A square of side 1 of n x n quads or 2 n x n triangles, all its nodes held, and a reference that is scaled. */
-static void make_patch(Scene *scene, ScenePattern pattern, int form, const char *tsrfac, double scale, double end)
+static void make_patch_of(Scene *scene, ScenePattern pattern, const char *material, double scale, double end)
 {
     SceneText *deck = &scene->deck;
     deck->exact = true;
@@ -23,8 +24,9 @@ static void make_patch(Scene *scene, ScenePattern pattern, int form, const char 
     scene_begin(deck, "patch", end, 0.9);
     scene_write_part(deck, 1, 1, 1, "cloth");
     scene_write_section(deck, 1, 9, THICKNESS);
-    scene_print(deck, "*MAT_FABRIC\n1,800,%g,%g,,%g,%g\n,,,1\n0,,,,,%d,,%s\n", E, E, NU, NU, form, tsrfac);
+    scene_print(deck, "%s", material);
     scene_write_curve(deck, 7, 3, (const double[]){0, 0, 0.002, 1, 1, 1});
+    scene_write_curve(deck, 11, 2, (const double[]){0, 0, 1, 1e8});
     scene_write_curve(deck, 8, 3, (const double[]){0, 0, 1e-4, 0.2, 1, 0.2});
     scene_write_node_set(deck, 1, &scene->mesh, scene_select_all, NULL);
     scene_write_spc(deck, 1, true, true, true);
@@ -32,6 +34,14 @@ static void make_patch(Scene *scene, ScenePattern pattern, int form, const char 
     for (int i = 0; i < scene->mesh.node_count; i++)
         scene_print(deck, "%d,%.17g,%.17g\n", i + 1, scale * scene->mesh.x[3 * i], scale * scene->mesh.x[3 * i + 1]);
     scene_end(deck, &scene->mesh);
+}
+
+static void make_patch(Scene *scene, ScenePattern pattern, int form, const char *tsrfac, double scale, double end)
+{
+    char material[200];
+    snprintf(material, sizeof material, "*MAT_FABRIC\n1,800,%g,%g,,%g,%g\n,,,1\n0,,,,,%d,,%s\n", E, E, NU, NU, form,
+             tsrfac);
+    make_patch_of(scene, pattern, material, scale, end);
 }
 
 /* A reference smaller than the mesh gives no tension; TSRFAC brings it back, its energy as external work. */
@@ -59,6 +69,36 @@ static void initial_tension_is_left_out_and_comes_back(void **state)
                 verify_near("external work", last->external, i == 0 ? 0 : energy, 1e-6 * energy);
                 verify_free(&run);
             }
+        }
+    }
+}
+
+/* ISREFG = 1 of FORM 12 and of MAT_FABRIC_MAP keeps the initial tension from the start, as energy that is there at
+ * first; SRFAC of the map brings it back over its curve, as external work. */
+static void initial_tension_stays(void **state)
+{
+    (void)state;
+    static const char *const cards[] = {
+        "*MAT_FABRIC\n1,800,1e8,1e8,,.3,.3\n,,,1\n0,,,,,12\n0\n,,,,,,,1\n",
+        "*MAT_FABRIC_MAP\n1,800,11,11,11\n\n1,1\n0\n\n\n",
+        "*MAT_FABRIC_MAP\n1,800,11,11,11\n\n,1,7\n0\n\n\n",
+    };
+    const double scale = 0.8, l = 1 / scale;
+    for (int i = 0; i < 3; i++) {
+        const double stress = i == 0 ? E / (1 - NU) * 0.5 * (l * l - 1) : E * (l - 1) / l; /* second Piola-Kirchhoff */
+        const double energy = (i == 0 ? stress * 0.5 * (l * l - 1) : E * (l - 1) * (l - 1)) * scale * scale * THICKNESS;
+        for (int pattern = SCENE_QUADS; pattern <= SCENE_DIAGONAL; pattern++) {
+            Scene scene = {0};
+            VerifyRun run;
+            make_patch_of(&scene, (ScenePattern)pattern, cards[i], scale, 0.01);
+            verify_scene(&run, &scene, &(VerifyOptions){.every = 1});
+            ElementResult result = verify_element(&run, 4);
+            const VerifySample *last = &run.samples[run.count - 1];
+            verify_near("stress / E", result.stress[0] / E, stress / E, 1e-9);
+            verify_near("first energy", run.samples[0].internal, i < 2 ? energy : 0, 1e-6 * energy);
+            verify_near("energy", last->internal, energy, 1e-6 * energy);
+            verify_near("external work", last->external, i < 2 ? 0 : energy, 1e-6 * energy);
+            verify_free(&run);
         }
     }
 }
@@ -324,9 +364,13 @@ static void panels_become_a_body(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tension_back_keeps_the_balance), cmocka_unit_test(initial_tension_is_left_out_and_comes_back),
-        cmocka_unit_test(liners_wait_until_taut),         cmocka_unit_test(same_bits_over_threads_and_restarts),
-        cmocka_unit_test(the_reference_may_lie_anywhere), cmocka_unit_test(leakage_refers_to_the_area_asked_for),
+        cmocka_unit_test(tension_back_keeps_the_balance),
+        cmocka_unit_test(initial_tension_is_left_out_and_comes_back),
+        cmocka_unit_test(initial_tension_stays),
+        cmocka_unit_test(liners_wait_until_taut),
+        cmocka_unit_test(same_bits_over_threads_and_restarts),
+        cmocka_unit_test(the_reference_may_lie_anywhere),
+        cmocka_unit_test(leakage_refers_to_the_area_asked_for),
         cmocka_unit_test(panels_become_a_body),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -217,7 +217,7 @@ static void test_orthotropic(void **unused)
         affine_run(&patch, &run); /* reference A3 */
         affine_check("A3", affine_stress(&run, f, false), (Plane){14775000, -3300000, 1034000}, 1e-8);
         verify_free(&run);
-        patch.material = "*MAT_FABRIC_MAP\n1,1000.,101,102,103\n0,0,0,0,0,0,1.\n0\n2.\n0,0,0,1.\n0\n"
+        patch.material = "*MAT_FABRIC_MAP\n1,1000.,101,102,103\n0\n0,1.\n2.\n0,0,0,1.\n0\n"
                          "*DEFINE_CURVE\n101\n0.,0.\n.02,1e6\n.2,6e7\n*DEFINE_CURVE\n102\n0.,0.\n.2,4e7\n"
                          "*DEFINE_CURVE\n103\n0.,0.\n.02,2e5\n.3,4e6\n";
         affine_run(&patch, &run);
