@@ -305,8 +305,8 @@ static void store_list(const ContactList *list, int base, ContactMemory *to, int
 {
     for (int i = 0; i < list->owner_count; i++) {
         int first = *count;
-        for (int k = 0; list->held[i] && k < CONTACT_SLOTS && *count < capacity; k++) {
-            const ContactMemory *m = &list->memory[(ptrdiff_t)i * CONTACT_SLOTS + k];
+        for (int k = 0; k < list->held[i] && *count < capacity; k++) {
+            const ContactMemory *m = contact_slot(list, i, k);
             if (!m->side) continue;
             to[*count] = *m;
             to[(*count)++].pair[0] = base + i;

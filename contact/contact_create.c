@@ -21,9 +21,10 @@ static int list_create(ContactList *list, int owners)
     list->deepest = memory_alloc(groups + 1, sizeof *list->deepest);
     list->memory = memory_alloc((size_t)owners * CONTACT_SLOTS + 1, sizeof *list->memory);
     list->held = memory_alloc((size_t)owners + 1, 1);
+    list->partner = memory_alloc((size_t)owners * CONTACT_SLOTS + 1, sizeof *list->partner);
     list->depth = memory_alloc((size_t)owners + 1, sizeof *list->depth);
     return list->sums && list->pieces && list->passages && list->start && list->next_start && list->deepest &&
-                   list->memory && list->held && list->depth
+                   list->memory && list->held && list->partner && list->depth
                ? 0
                : -1;
 }
@@ -32,6 +33,7 @@ static void list_free(ContactList *list)
 {
     memory_free(list->memory);
     memory_free(list->held);
+    memory_free(list->partner);
     memory_free(list->depth);
     memory_free(list->deepest);
     memory_free(list->start);

@@ -46,8 +46,8 @@ static void keep_sharp(ContactRun *run, unsigned char *sharp)
 {
     const ContactList *list = &run->edges;
     for (int e = 0; e < list->owner_count; e++)
-        for (int k = 0; list->held[e] && k < CONTACT_SLOTS; k++) {
-            const ContactMemory *m = &list->memory[(ptrdiff_t)e * CONTACT_SLOTS + k];
+        for (int k = 0; k < list->held[e]; k++) {
+            const ContactMemory *m = contact_slot(list, e, k);
             if (m->side) sharp[e] = sharp[m->pair[1]] = 1;
         }
 }

@@ -64,11 +64,13 @@ typedef struct ContactGroupPair {
 /* Pairs of one kind and what becomes of them in a cycle. */
 typedef struct ContactList {
     int owner_count, group_count;
-    ContactMemory *memory;  /* of each owner (owner_count x CONTACT_SLOTS); free ones have side 0 */
-    unsigned char *held;    /* memories of each owner (owner_count) */
-    double *depth;          /* how deep each node was behind a surface at its last look (owner_count) [L] */
-    double *deepest;        /* of each group (group_count) [L] */
-    int32_t *start;         /* of each group in pair (group_count + 1) */
+    ContactMemory *memory; /* contact_slot (CONTACT_SLOTS x owner_count) */
+    unsigned char
+        *held;        /* the owner's memories are its first so many; lost ones among them have side 0 (owner_count) */
+    int32_t *partner; /* other item of each memory (owner_count x CONTACT_SLOTS) */
+    double *depth;    /* how deep each node was behind a surface at its last look (owner_count) [L] */
+    double *deepest;  /* of each group (group_count) [L] */
+    int32_t *start;   /* of each group in pair (group_count + 1) */
     ContactGroupPair *pair; /* ascending (start[group_count]) */
     int32_t *next_start;    /* workspace of the search: the new list */
     ContactGroupPair *next;
@@ -78,34 +80,47 @@ typedef struct ContactList {
     ContactPassages *passages; /* of edges (group_count) */
 } ContactList;
 
+/* Memory k of an owner. Those of number k of all owners lie together: most owners have one or two. */
+static inline ContactMemory *contact_slot(const ContactList *list, int owner, int k)
+{
+    return list->memory + (ptrdiff_t)k * list->owner_count + owner;
+}
+
 /* What the owner's pair remembers; NULL if nothing. */
 static inline ContactMemory *contact_recall(const ContactList *list, int owner, int32_t other)
 {
-    ContactMemory *of_owner = list->memory + (ptrdiff_t)owner * CONTACT_SLOTS;
-    for (int k = 0; list->held[owner] && k < CONTACT_SLOTS; k++)
-        if (of_owner[k].side && of_owner[k].pair[1] == other) return &of_owner[k];
+    const int32_t *partner = list->partner + (ptrdiff_t)owner * CONTACT_SLOTS;
+    for (int k = 0; k < list->held[owner]; k++)
+        if (partner[k] == other && contact_slot(list, owner, k)->side) return contact_slot(list, owner, k);
     return NULL;
 }
 
 /* Gives a pair a memory; one too many is let go. */
 static inline void contact_keep(ContactList *list, int owner, int32_t other, const ContactMemory *memory)
 {
-    ContactMemory *of_owner = list->memory + (ptrdiff_t)owner * CONTACT_SLOTS;
     for (int k = 0; k < CONTACT_SLOTS; k++) {
-        if (of_owner[k].side) continue;
-        of_owner[k] = *memory;
-        of_owner[k].pair[1] = other;
-        list->held[owner]++;
+        ContactMemory *m = contact_slot(list, owner, k);
+        if (k < list->held[owner] && m->side) continue;
+        *m = *memory;
+        m->pair[1] = other;
+        list->partner[(ptrdiff_t)owner * CONTACT_SLOTS + k] = other;
+        if (k >= list->held[owner]) list->held[owner] = (unsigned char)(k + 1);
         if (-memory->gap > list->depth[owner]) list->depth[owner] = -memory->gap;
         return;
     }
 }
 
-/* Counts an owner's memories. */
+/* Closes the gaps that an owner's lost memories have left. */
 static inline void contact_count_held(ContactList *list, int owner)
 {
     int count = 0;
-    for (int k = 0; k < CONTACT_SLOTS; k++) count += list->memory[(ptrdiff_t)owner * CONTACT_SLOTS + k].side != 0;
+    for (int k = 0; k < list->held[owner]; k++) {
+        ContactMemory *m = contact_slot(list, owner, k);
+        if (!m->side) continue;
+        if (count < k) *contact_slot(list, owner, count) = *m, *m = (ContactMemory){0};
+        list->partner[(ptrdiff_t)owner * CONTACT_SLOTS + count] = contact_slot(list, owner, count)->pair[1];
+        count++;
+    }
     list->held[owner] = (unsigned char)count;
 }
 

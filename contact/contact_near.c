@@ -43,14 +43,13 @@ void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group
 /* Adds the others that an owner remembers, in their places, and leaves out doubles. Returns how many there are now. */
 static int merge_memories(const ContactList *list, int owner, int32_t *other, int count)
 {
-    const ContactMemory *m = list->memory + (ptrdiff_t)owner * CONTACT_SLOTS;
-    for (int k = 0; k < CONTACT_SLOTS; k++) {
-        if (!m[k].side) continue;
+    const int32_t *partner = list->partner + (ptrdiff_t)owner * CONTACT_SLOTS;
+    for (int k = 0; k < list->held[owner]; k++) {
         int place = count;
-        while (place > 0 && other[place - 1] > m[k].pair[1]) place--;
-        if (place > 0 && other[place - 1] == m[k].pair[1]) continue;
+        while (place > 0 && other[place - 1] > partner[k]) place--;
+        if (place > 0 && other[place - 1] == partner[k]) continue;
         for (int i = count; i > place; i--) other[i] = other[i - 1];
-        other[place] = m[k].pair[1];
+        other[place] = partner[k];
         count++;
     }
     return count;
