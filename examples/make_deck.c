@@ -81,6 +81,16 @@ static void make_folded_bag(Scene *scene, const Options *options)
     scene_folded_bag(scene, options->n, 0);
 }
 
+static void make_resting_folded(Scene *scene, const Options *options)
+{
+    scene_resting_bag(scene, options->n, true);
+}
+
+static void make_resting_flat(Scene *scene, const Options *options)
+{
+    scene_resting_bag(scene, options->n, false);
+}
+
 static void make_speed(Scene *scene, const Options *options)
 {
     scene_speed(scene, options->pattern, options->shells, options->cycles);
@@ -124,6 +134,9 @@ static const struct SceneName {
      make_prestressed_cushion},
     {"folded-bag", "square bag folded in eight layers that unfolds against itself (-n cells per side)",
      make_folded_bag},
+    {"resting-folded-bag", "the same fabric, folded, blown up and brought to rest (-n cells per side)",
+     make_resting_folded},
+    {"resting-flat-bag", "the same from flat, without contact (-n cells per side)", make_resting_flat},
     {"disc", "clamped disc under pressure (-n, --pattern, --elform, --form)", make_disc},
     {"bag", "half of a bag of two discs under pressure (-n, --pattern, --elform, --form)", make_bag},
     {"square", "quarter of a square cushion under pressure (-n, --pattern, --elform, --form)", make_square},

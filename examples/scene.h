@@ -122,6 +122,9 @@ void scene_card(SceneText *deck, int count, const double *fields);
 /* *KEYWORD, *TITLE, *CONTROL_TERMINATION, *CONTROL_TIMESTEP (tssfac 0: the deck's default). */
 void scene_begin(SceneText *deck, const char *title, double end_time, double tssfac);
 
+/* The lines of nodes under *NODE or a reference geometry. */
+void scene_write_nodes(SceneText *deck, const SceneMesh *mesh);
+
 /* *NODE and *ELEMENT_SHELL of the whole mesh, and *END. The last thing to write. */
 void scene_end(SceneText *deck, const SceneMesh *mesh);
 
@@ -192,6 +195,7 @@ typedef struct SceneGas {
     double inflow_temperature;    /* 0: none */
     int inflow_curve;             /* mass flow, 0: none */
     double vent_coefficient, vent_area;
+    int vent_curve;             /* area over absolute pressure, WANG_NEFSKE only; 0: vent_area */
     double vini;                /* VINI of card 1 */
     double overpressure;        /* POVER, WANG_NEFSKE only */
     double pop_pressure;        /* PPOP, WANG_NEFSKE only */
@@ -251,6 +255,10 @@ void scene_impactor(Scene *scene, int n, bool box);
 /* A square bag of 4 n^2 triangles (n a multiple of 4; 0: 72) folded in eight layers, gap apart (0: their thickness),
  * that unfolds against itself. */
 void scene_folded_bag(Scene *scene, int n, double gap);
+
+/* The same square of fabric FORM 2, folded or from flat and then without contact, brought to rest at 0.1 s by mass
+ * damping; a relief valve closes at 115 kPa. Both have the flat square as their cloth. */
+void scene_resting_bag(Scene *scene, int n, bool folded);
 
 /* A bag of two discs in the plane z = 0, parts 1 (upper) and 2 (lower), whose fabric gives the tension of a folded mesh
  * back; blown up by an inflator, or with pressure > 0 by this constant pressure, and damped until it rests. The bag as

@@ -75,9 +75,8 @@ void scene_begin(SceneText *deck, const char *title, double end_time, double tss
     }
 }
 
-void scene_end(SceneText *deck, const SceneMesh *mesh)
+void scene_write_nodes(SceneText *deck, const SceneMesh *mesh)
 {
-    scene_print(deck, "*NODE\n");
     for (int i = 0; i < mesh->node_count; i++) {
         const double *x = mesh->x + 3 * i;
         if (deck->exact)
@@ -85,6 +84,12 @@ void scene_end(SceneText *deck, const SceneMesh *mesh)
         else
             scene_print(deck, "%8d%16.9E%16.9E%16.9E\n", i + 1, x[0], x[1], x[2]);
     }
+}
+
+void scene_end(SceneText *deck, const SceneMesh *mesh)
+{
+    scene_print(deck, "*NODE\n");
+    scene_write_nodes(deck, mesh);
     scene_print(deck, "*ELEMENT_SHELL\n");
     for (int e = 0; e < mesh->shell_count; e++) {
         const int *n = mesh->shell[e];

@@ -1,12 +1,17 @@
-/* Scenes: a square bag folded in eight layers that unfolds against itself. SI units. */
+/* Scenes: a square bag folded in eight layers that unfolds against itself; the same brought to rest. SI units. */
 #include "examples/scene.h"
 
 #include <math.h>
 
 enum { PART_TOP = 1, PART_BOTTOM, PANELS = 4 };
 
+static const double side = 0.6, thickness = 3.5e-4;
+
+/* A folded square of cells x cells squares a side, and how far the sheet outside at a fold goes beyond the panel. */
 typedef struct Fold {
+    int cells;
     double width, gap; /* of a panel; between neighbouring layers [L] */
+    double beyond;     /* [L] */
 } Fold;
 
 /* A point of the flat bag at (s, t), layer 0 below and 1 above, in the zigzag: panels lie on each other in turn to the
@@ -20,7 +25,8 @@ static void fold_point(const Fold *f, double s, double t, int layer, double x[3]
         int k = (int)round(crease); /* between panels k - 1 and k */
         bool right = k % 2 == 1, outside = (layer == 0) == right;
         x[0] = right ? f->width : 0.0;
-        if (outside) x[0] += right ? f->gap : -f->gap;
+        double beyond = outside ? f->beyond : f->beyond - f->gap;
+        x[0] += right ? beyond : -beyond;
         x[2] = (2 * k - 0.5) * f->gap;
     } else {
         along = s / f->width - panel;
@@ -36,25 +42,22 @@ static int sheet_node(int n, int i, int j)
     return i * (n + 1) + j;
 }
 
-void scene_folded_bag(Scene *scene, int n, double gap)
+/* Nodes of both sheets, the lower first, flat or folded. */
+static void add_nodes(SceneMesh *mesh, const Fold *fold, bool flat)
 {
-    const double side = 0.6, thickness = 3.5e-4;
-    int cells = n > 0 ? n : 72;
-    SceneText *deck = &scene->deck;
-    SceneMesh *mesh = &scene->mesh;
-    Fold fold = {side / PANELS, gap > 0 ? gap : thickness};
-    deck->exact = true;
-    cells = (cells + PANELS - 1) / PANELS * PANELS;
-    int node[2] = {0, 0};
-    for (int layer = 0; layer < 2; layer++) {
-        node[layer] = mesh->node_count;
-        for (int i = 0; i <= cells; i++)
-            for (int j = 0; j <= cells; j++) {
-                double x[3];
-                fold_point(&fold, side * i / cells, side * j / cells, layer, x);
+    for (int layer = 0; layer < 2; layer++)
+        for (int i = 0; i <= fold->cells; i++)
+            for (int j = 0; j <= fold->cells; j++) {
+                double s = side * i / fold->cells, t = side * j / fold->cells, x[3] = {s, t, layer * fold->gap};
+                if (!flat) fold_point(fold, s, t, layer, x);
                 scene_add_node(mesh, x[0], x[1], x[2]);
             }
-    }
+}
+
+/* Shells of both sheets; the rim is a seam: nodes of the lower sheet. */
+static void add_shells(SceneMesh *mesh, int cells)
+{
+    int upper = (cells + 1) * (cells + 1);
     for (int layer = 0; layer < 2; layer++)
         for (int i = 0; i < cells; i++)
             for (int j = 0; j < cells; j++) {
@@ -63,7 +66,7 @@ void scene_folded_bag(Scene *scene, int n, double gap)
                 for (int k = 0; k < 4; k++) {
                     int row = a[k] / (cells + 1), column = a[k] % (cells + 1);
                     bool rim = row == 0 || row == cells || column == 0 || column == cells;
-                    a[k] += rim ? node[0] : node[layer]; /* the rim is a seam: nodes of the lower sheet */
+                    if (layer == 1 && !rim) a[k] += upper;
                 }
                 if (layer == 1) {
                     scene_add_shell(mesh, PART_TOP, a[0], a[1], a[2], a[2]);
@@ -73,12 +76,14 @@ void scene_folded_bag(Scene *scene, int n, double gap)
                     scene_add_shell(mesh, PART_BOTTOM, a[0], a[3], a[2], a[2]);
                 }
             }
-    scene_begin(deck, "square bag folded in eight layers", 0.030, 0.9);
-    scene_write_output(deck, 1e-4, 1e-4, 1e-3);
+}
+
+static void write_parts(SceneText *deck, int form)
+{
     scene_write_part(deck, PART_TOP, 1, 1, "upper panel");
     scene_write_part(deck, PART_BOTTOM, 1, 1, "lower panel");
     scene_write_section(deck, 1, 9, thickness);
-    SceneFabric fabric = {.form = 0,
+    SceneFabric fabric = {.form = form,
                           .cse = true,
                           .density = 800,
                           .ea = 3e8,
@@ -89,19 +94,72 @@ void scene_folded_bag(Scene *scene, int n, double gap)
                           .damp = 0.05};
     scene_write_fabric(deck, 1, &fabric);
     scene_write_part_set(deck, 1, 2, (const int[]){PART_TOP, PART_BOTTOM});
-    scene_write_curve(deck, 1, 4, (const double[]){0, 0, 0.003, 3.0, 0.015, 2.0, 0.030, 0});
-    SceneGas gas = {.gamma = 1.4,
-                    .molar_mass = 0.0280134,
-                    .pressure = 101325,
-                    .temperature = 296.15,
-                    .inflow_temperature = 600,
-                    .inflow_curve = 1,
-                    .vent_coefficient = 0.65,
-                    .vent_area = 1e-3};
-    scene_write_wang_nefske(deck, 1, &gas);
+}
+
+static const SceneGas gas = {.gamma = 1.4,
+                             .molar_mass = 0.0280134,
+                             .pressure = 101325,
+                             .temperature = 296.15,
+                             .inflow_temperature = 600,
+                             .inflow_curve = 1,
+                             .vent_coefficient = 0.65};
+
+static void write_contact(SceneText *deck)
+{
     scene_print(deck, "*CONTACT_AIRBAG_SINGLE_SURFACE\n");
     SCENE_CARD(deck, 0, 0, 5);
     SCENE_CARD(deck, 0.2, 0.2, 0, 0, 10);
     SCENE_CARD(deck, 1, 1);
-    scene_end(deck, mesh);
+}
+
+static int even_cells(int n)
+{
+    return ((n > 0 ? n : 72) + PANELS - 1) / PANELS * PANELS;
+}
+
+void scene_folded_bag(Scene *scene, int n, double gap)
+{
+    SceneText *deck = &scene->deck;
+    Fold fold = {even_cells(n), side / PANELS, gap > 0 ? gap : thickness, gap > 0 ? gap : thickness};
+    SceneGas vented = gas;
+    vented.vent_area = 1e-3;
+    deck->exact = true;
+    add_nodes(&scene->mesh, &fold, false);
+    add_shells(&scene->mesh, fold.cells);
+    scene_begin(deck, "square bag folded in eight layers", 0.030, 0.9);
+    scene_write_output(deck, 1e-4, 1e-4, 1e-3);
+    write_parts(deck, 0);
+    scene_write_curve(deck, 1, 4, (const double[]){0, 0, 0.003, 3.0, 0.015, 2.0, 0.030, 0});
+    scene_write_wang_nefske(deck, 1, &vented);
+    write_contact(deck);
+    scene_end(deck, &scene->mesh);
+}
+
+void scene_resting_bag(Scene *scene, int n, bool folded)
+{
+    SceneText *deck = &scene->deck;
+    SceneMesh flat = {0};
+    Fold fold = {even_cells(n), side / PANELS, thickness, -thickness / 8};
+    SceneGas relieved = gas;
+    relieved.vent_curve = 3;
+    deck->exact = true;
+    add_nodes(&scene->mesh, &fold, !folded);
+    add_shells(&scene->mesh, fold.cells);
+    scene_begin(deck, folded ? "square bag folded in eight layers, brought to rest" : "the same bag from flat", 0.1,
+                0.9);
+    scene_write_output(deck, 1e-4, 1e-4, 1e-2);
+    write_parts(deck, 2);
+    scene_write_curve(deck, 1, 6, (const double[]){0, 0, 0.003, 1.8, 0.015, 1.2, 0.030, 0.1, 0.060, 0.1, 0.065, 0});
+    scene_write_curve(deck, 2, 4, (const double[]){0, 0, 0.015, 0, 0.030, 400, 1, 400});
+    scene_write_curve(deck, 3, 4, (const double[]){0, 0, 115000, 0, 120000, 0.004, 1e6, 0.004});
+    scene_write_wang_nefske(deck, 1, &relieved);
+    scene_write_damping(deck, 2, 0);
+    if (folded) {
+        write_contact(deck);
+        add_nodes(&flat, &fold, true);
+        scene_print(deck, "*AIRBAG_REFERENCE_GEOMETRY\n");
+        scene_write_nodes(deck, &flat);
+        scene_mesh_free(&flat);
+    }
+    scene_end(deck, &scene->mesh);
 }

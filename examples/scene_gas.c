@@ -44,7 +44,7 @@ void scene_write_wang_nefske(SceneText *deck, int part_set, const SceneGas *gas)
     scene_print(deck, "$       cv        cp         t       lct      lcmt      tvol      lcdt      iabt\n");
     SCENE_CARD(deck, heat.cv, heat.cp, heat.inflow, 0, gas->inflow_curve, 0, 0, gas->initial_temperature);
     scene_print(deck, "$      c23     lcc23       a23     lca23      cp23    lccp23      ap23    lcap23\n");
-    SCENE_CARD(deck, gas->vent_coefficient, 0, gas->vent_area, 0, 0, 0, 0, 0);
+    SCENE_CARD(deck, gas->vent_coefficient, 0, gas->vent_area, gas->vent_curve, 0, 0, 0, 0);
     scene_print(deck, "$       pe        ro        gc     lcefr     pover      ppop       opt     knkdn\n");
     SCENE_CARD(deck, gas->pressure, heat.density, 1, 0, gas->overpressure, gas->pop_pressure, 0, 0);
     scene_print(deck, "$      ioc       ioa      ivol       iro        it      lcbf\n");
