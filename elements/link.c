@@ -1,14 +1,14 @@
-/* Forces and energies of links. Equations (K1) to (K6) of docs/theory.md. */
+/* Forces and energies of links. Equations (K1) to (K8) of docs/theory.md. */
 #include "elements/link.h"
 
 #include "solver/elementary.h"
 
-double link_tension(const Link *link, double length, double *energy)
+double link_tension(const Link *link, double length, double peak, double *energy)
 {
-    if (link->curve) {
-        double strain = length / link->length - 1.0;
-        *energy = link->length * law_curve_area(link->curve, strain);
-        return law_curve_stress(link->curve, strain);
+    if (link->strap) {
+        double force = strap_force(link->strap, length / link->length - 1.0, peak, energy);
+        *energy *= link->length;
+        return force;
     }
     if (link->logarithmic) {
         double strain = elementary_log(length / link->length);
@@ -21,15 +21,22 @@ double link_tension(const Link *link, double length, double *energy)
     return tension;
 }
 
+double link_peak(const Link *link, double length, double peak)
+{
+    double strain = link->strap ? length / link->length - 1.0 : 0.0;
+    return strain > peak ? strain : peak;
+}
+
 double link_slope(const Link *link, double length)
 {
     double energy;
     if (link->logarithmic) return link->stiffness / length;
-    if (link->curve) {
+    if (link->strap) {
         const double step = 1e-6 * link->length;
-        return (link_tension(link, length + step, &energy) - link_tension(link, length - step, &energy)) / (2.0 * step);
+        return (link_tension(link, length + step, 0.0, &energy) - link_tension(link, length - step, 0.0, &energy)) /
+               (2.0 * step);
     }
-    return link->tension_only && !(link_tension(link, length, &energy) > 0.0) ? 0.0 : link->stiffness;
+    return link->tension_only && !(link_tension(link, length, 0.0, &energy) > 0.0) ? 0.0 : link->stiffness;
 }
 
 double link_rate(const Link *link, double length, double tension)

@@ -5,25 +5,29 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "elements/law_curve.h"
+#include "elements/strap.h"
 
 typedef struct Link {
     int id;   /* user's number of the element */
     int part; /* index into Model.parts */
     int32_t node[2];
-    bool logarithmic;      /* force on the logarithmic strain (truss), else on the elongation */
-    bool tension_only;     /* cable */
-    double stiffness;      /* force per elongation; of a truss force per strain */
-    double length;         /* at which only the preload acts [L] */
-    double preload;        /* [force] */
-    const LawCurve *curve; /* strap: force over L/length - 1, stiffness its steepest; NULL: none. The Model's */
-    double inverse[2];     /* 1/m of each end times the links that share it, at most; 0: the end does not move [1/M] */
+    bool logarithmic;   /* force on the logarithmic strain (truss), else on the elongation */
+    bool tension_only;  /* cable */
+    double stiffness;   /* force per elongation; of a truss force per strain */
+    double length;      /* at which only the preload acts [L] */
+    double preload;     /* [force] */
+    const Strap *strap; /* force over L/length - 1, stiffness its steepest; NULL: none. The Model's */
+    double inverse[2];  /* 1/m of each end times the links that share it, at most; 0: the end does not move [1/M] */
 } Link;
 
-/* Tension at the length (negative: compression) and the energy stored (K1 to K4). */
-double link_tension(const Link *link, double length, double *energy);
+/* Tension at the length (negative: compression) and the energy stored, a strap's dissipated energy with it (K1 to K8).
+ * peak: largest strain of a strap so far, below it the way back counts; else 0. */
+double link_tension(const Link *link, double length, double peak, double *energy);
 
-/* Change of the tension with the length. */
+/* The strap's largest strain so far at this length, of the one before; 0 for other links. */
+double link_peak(const Link *link, double length, double peak);
+
+/* Change of the tension with the length, of straps on the loading curve. */
 double link_slope(const Link *link, double length);
 
 /* Upper bound of the square of the highest frequency with the masses at its ends (K5). */

@@ -70,7 +70,6 @@ static void read_section(KeywordRead *read)
 
 typedef struct BeltMaterialCard {
     MaterialDefinition material;
-    int ulcid;
     double lmin, cse, damp, e;
 } BeltMaterialCard;
 #define AT(member) offsetof(BeltMaterialCard, member)
@@ -78,11 +77,11 @@ static const FieldSpec material_fields[] = {
     CARD_INT("MID", material.id, USED, ID_MATERIAL),
     CARD_REAL("MPUL", material.ro, USED, NONE),
     CARD_INT("LLCID", material.llcid, USED, ID_FUNCTION),
-    CARD_INT("ULCID", ulcid, REFUSED, ID_FUNCTION),
+    CARD_INT("ULCID", material.ulcid, USED, ID_FUNCTION),
     CARD_REAL("LMIN", lmin, LISTED, LENGTH),
     CARD_REAL("CSE", cse, LISTED, NONE),
     CARD_REAL("DAMP", damp, LISTED, NONE),
-    CARD_REAL("E", e, LISTED, PRESSURE),
+    CARD_REAL("E", e, REFUSED, PRESSURE),
 };
 #undef AT
 static const CardSpec material_cards[] = {{"card 1", "", CARD_FIELDS(material_fields)}};
@@ -123,8 +122,11 @@ static const KeywordSpec specs[] = {
      .card_count = 1,
      .read = read_material,
      .remark =
-         "Force LLCID over the engineering strain L/(L0 + SLEN) - 1, none below 0; mass MPUL per length. A curve of "
-         "unloading (ULCID) is refused. LMIN serves sliprings; CSE, DAMP and E belts of shells."},
+         "Force LLCID over the engineering strain L/(L0 + SLEN) - 1, none below 0; mass MPUL per length. Beyond the "
+         "first point after the origin a strap comes back along ULCID, shifted to where it turns, which must be "
+         "steeper "
+         "than LLCID (docs/theory.md, K7). Bending (E) is refused. LMIN serves sliprings; CSE and DAMP belts of "
+         "shells."},
 };
 
 const KeywordFamily keyword_family_seatbelt = {"Straps", specs, (int)(sizeof specs / sizeof *specs)};

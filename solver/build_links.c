@@ -72,13 +72,23 @@ static double beam_mass(const SectionBeamDefinition *section, const MaterialDefi
 static int belt_law(Builder *b, const LinkCard *card, const MaterialDefinition *material, double length, Link *link,
                     double *mass)
 {
-    LawCurve *curve = builder_alloc(b, 1, sizeof *curve);
-    if (!curve || material_curve(b, material, "LLCID", material->llcid, curve)) return -1;
-    link->curve = curve;
+    Strap *strap = builder_alloc(b, 1, sizeof *strap);
+    if (!strap || material_curve(b, material, "LLCID", material->llcid, &strap->load)) return -1;
+    if (material->ulcid != 0 && material_curve(b, material, "ULCID", material->ulcid, &strap->unload)) return -1;
+    strap->yield = strap->load.x[2];
+    double strain = strap_creates_energy(strap);
+    if (!(strain < 0.0)) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, material->source, material->keyword,
+                        "material %d, ULCID = %d: from the force at the strain %g of LLCID on, the unloading curve is "
+                        "less steep than the loading curve, so that cycles would create energy; make it steeper",
+                        material->id, material->ulcid, strain);
+        return -1;
+    }
+    link->strap = strap;
     link->tension_only = true;
     link->length = length + card->spring->slack;
     if (!(link->length > 0.0)) return refuse_law(b, card, "length", link->length, "move its nodes apart or give SLEN");
-    link->stiffness = law_curve_steepest(curve) / link->length;
+    link->stiffness = strap_steepest(strap) / link->length;
     if (!(material->ro > 0.0)) return refuse_law(b, card, "MPUL", material->ro, "a strap needs its mass per length");
     *mass = material->ro * link->length;
     return 0;

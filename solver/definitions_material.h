@@ -58,7 +58,7 @@ typedef struct MaterialDefinition {
     double e, pr, da, db, k;     /* MAT_ELASTIC; MAT_NULL's YM and PR are in e and pr */
     double pc, mu, terod, cerod; /* MAT_NULL */
     double f0;                   /* MAT_CABLE_DISCRETE_BEAM */
-    int llcid;                   /* MAT_SEATBELT; its MPUL is in ro */
+    int llcid, ulcid;            /* MAT_SEATBELT; its MPUL is in ro */
     const char *keyword;         /* as messages call it, a constant of the reader; NULL: *MAT_FABRIC and others' own */
     FabricCard fabric;
     RubberCard rubber;

@@ -90,7 +90,7 @@ static void add_links(RelaxSystem *s, const double *x, bool stiffness)
         vector3_subtract(x + 3 * (ptrdiff_t)link->node[1], x + 3 * (ptrdiff_t)link->node[0], along);
         double length = sqrt(vector3_dot(along, along));
         if (!(length > 0.0)) continue;
-        double tension = link_tension(link, length, &energy);
+        double tension = link_tension(link, length, 0.0, &energy);
         for (int k = 0; k < 3; k++) {
             along[k] /= length;
             s->force[3 * (ptrdiff_t)link->node[0] + k] += tension * along[k];

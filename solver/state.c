@@ -50,6 +50,7 @@ static size_t lay_out(const Model *model, State *state)
     state->contact_share = take(base, &used, shares * sizeof *state->contact_share);
     state->rigid = take(base, &used, (size_t)model->rigid_body_count * sizeof *state->rigid);
     state->link_energy = take(base, &used, (size_t)model->link_count * sizeof *state->link_energy);
+    state->link_peak = take(base, &used, (size_t)model->link_count * sizeof *state->link_peak);
     state->seam_torn = take(base, &used, (size_t)model->seam_count * sizeof *state->seam_torn);
     state->tie_broken = take(base, &used, (size_t)model->ties.count * sizeof *state->tie_broken);
     const bool erodes = model->has_erosion;

@@ -73,6 +73,7 @@ typedef struct State {
                                   Model.blockage, else none); written by the contact stage, zero without contact */
     RigidState *rigid;         /* (rigid_body_count), solver/rigid_body.h */
     double *link_energy;       /* stored in each link at the last cycle (link_count), written by links_act */
+    double *link_peak;         /* largest strain of each strap so far (link_count), written by links_act */
     WallState *wall;           /* (wall_count), contact/rigid_wall.h */
     unsigned char *wall_side;  /* WALL_SIDE_... of each node (wall_count x moving_count), written by step_walls */
     SensorState *sensor;       /* (sensor_count), airbag/sensor.h */

@@ -15,7 +15,8 @@ void links_act(const Model *m, State *state, double *f)
     for (int i = 0; i < m->link_count; i++) {
         const Link *link = &m->links[i];
         double line[3], energy, length = find_line(link, state->x, line);
-        double tension = link_tension(link, length, &energy);
+        double tension = link_tension(link, length, state->link_peak[i], &energy);
+        state->link_peak[i] = link_peak(link, length, state->link_peak[i]);
         state->part_energy[link->part] += energy - state->link_energy[i];
         state->link_energy[i] = energy;
         for (int end = 0; f && end < 2; end++) {
@@ -32,7 +33,7 @@ double links_rate(const Model *m, const double *x)
     for (int i = 0; i < m->link_count; i++) {
         const Link *link = &m->links[i];
         double line[3], energy, length = find_line(link, x, line);
-        double rate = link_rate(link, length, link_tension(link, length, &energy));
+        double rate = link_rate(link, length, link_tension(link, length, 0.0, &energy));
         if (rate > largest || rate != rate) largest = rate;
     }
     return largest;
