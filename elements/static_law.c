@@ -8,6 +8,15 @@
 #include "elements/kernel_law.h"
 #include "elements/law_point.h"
 
+bool static_law_is_symmetric(LawKind kind, const FabricLaw *fabric)
+{
+    if (kind == LAW_LOGARITHMIC) return false;
+    if (kind != LAW_BIOT || !fabric->no_compression) return true;
+    /* the projection (F7) is a gradient where D is a multiple of 1 */
+    const PlaneModuli *d = &fabric->fabric;
+    return d->d12 == 0.0 && d->d11 == d->d22 && 2.0 * d->d33 == d->d11;
+}
+
 /* A symmetric plane tensor. */
 typedef struct Tensor {
     double a11, a22, a12;

@@ -23,6 +23,9 @@ StaticLaw static_law_make(LawKind kind, const FabricLaw *fabric);
 /* Why a law has no static equilibrium (what it misses), or NULL if it has one. */
 const char *static_law_refusal(LawKind kind, const FabricLaw *fabric);
 
+/* Is the tangent symmetric everywhere? Else the law stores no energy. */
+bool static_law_is_symmetric(LawKind kind, const FabricLaw *fabric);
+
 /* Stress and energy at the right Cauchy-Green tensor c (11, 22, 12), and the tangent if it is wanted. */
 void static_law_point(const StaticLaw *law, const double c[3], bool tangent, StaticPoint *point);
 

@@ -143,6 +143,25 @@ static void set_pressures(RelaxSystem *s, const double *bag)
     }
 }
 
+/* What to try where the laws store no energy, and where they do. */
+static const char *advice_of_laws(const Model *m)
+{
+    bool elastic = false, fabric = false;
+    for (int g = 0; g < m->group_count; g++) {
+        if (static_law_is_symmetric(m->groups[g].law, &m->groups[g].material)) continue;
+        elastic = elastic || m->groups[g].law == LAW_LOGARITHMIC;
+        fabric = fabric || m->groups[g].law == LAW_BIOT;
+    }
+    return fabric
+               ? "fabric of FORM 0 or 1 with CSE = 1 and PRBA > 0 has no stored energy, and where it crumples it may "
+                 "have no exact equilibrium: use FORM 2, PRBA = 0, a liner (LRATIO) or dynamic relaxation (IDRFLG = "
+                 "1); else look at loads and supports there"
+           : elastic
+               ? "*MAT_ELASTIC grows softer as it stretches: beyond its largest pressure a bag has no equilibrium; "
+                 "lower the loads, or look at loads and supports there"
+               : "look at loads and supports there";
+}
+
 static int not_converged(const RelaxSystem *s, const NewtonResult *result, const double *x, Failure *failure)
 {
     const Model *m = s->model;
@@ -156,10 +175,7 @@ static int not_converged(const RelaxSystem *s, const NewtonResult *result, const
              "pressure grows without end",
              "no static equilibrium: nodes move away without end, the largest force left over is at %s", where);
     else
-        fail(failure,
-             "fabric of FORM 0 or 1 with CSE = 1 and PRBA > 0 has no stored energy and may have no equilibrium that "
-             "Newton's method finds: use FORM 2, PRBA = 0 or dynamic relaxation (IDRFLG = 1); else look at loads and "
-             "supports there",
+        fail(failure, advice_of_laws(m),
              "no static equilibrium within %d factorisations: residual %.3g of the loads, worst at %s",
              result->factorisations, result->residual, where);
     return -1;

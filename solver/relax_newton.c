@@ -6,9 +6,10 @@
 #include <string.h>
 
 #include "solver/memory.h"
+#include "solver/relax_exact.h"
 #include "solver/signals.h"
 
-enum { HALVINGS = 3 };
+enum { HALVINGS = 3, SYMMETRIC = 15 }; /* SYMMETRIC: factorisations before the exact tangent takes over, if need be */
 #define LEAST_SHIFT 1e-14
 #define LARGEST_SHIFT 1e3
 
@@ -18,6 +19,7 @@ typedef struct Newton {
     double *x, *trial;                        /* positions (node_count x 3) */
     double *residual, *middle, *after, *step; /* (unknown_count) */
     double shift;
+    bool exact;   /* some tangent is not symmetric */
     double size;  /* of the model [L] */
     double reach; /* largest step of an unknown [L] */
     NewtonResult *result;
@@ -130,6 +132,7 @@ static int iterate(Newton *n)
     RelaxSystem *s = n->system;
     NewtonResult *result = n->result;
     double load;
+    const int most = n->exact && n->options->iterations > SYMMETRIC ? SYMMETRIC : n->options->iterations;
     relax_system_assemble(s, n->x, true, n->residual, &load);
     for (;;) {
         double size = sqrt(product(s->unknown_count, n->residual, n->residual));
@@ -143,7 +146,7 @@ static int iterate(Newton *n)
                     result->residual, n->shift);
         if (result->residual <= n->options->tolerance) return 0;
         result->stopped = signals_stop_requested();
-        if (result->stopped || result->factorisations >= n->options->iterations || n->shift >= LARGEST_SHIFT) return 1;
+        if (result->stopped || result->factorisations >= most || n->shift >= LARGEST_SHIFT) return 1;
         int status = find_step(n);
         if (status) return status;
         if (search(n, &load) == 0.0) continue;
@@ -171,11 +174,17 @@ int relax_newton(RelaxSystem *system, const NewtonOptions *options, double *x, N
                 .after = memory_alloc(count, sizeof(double)),
                 .step = memory_alloc(count, sizeof(double)),
                 .shift = 1e-2,
+                .exact = relax_needs_exact(system),
                 .size = size,
                 .reach = 0.2 * size,
                 .result = result};
     int status = n.trial && n.residual && n.middle && n.after && n.step ? 0 : -1;
     if (!status && system->unknown_count > 0) status = iterate(&n);
+    if (status == 1 && n.exact && !result->stopped && !result->far) {
+        result->shift = 1e-2;
+        status = relax_exact(system, options, size, x, result);
+        if (status == 1) relax_system_assemble(system, x, false, n.residual, &(double){0});
+    }
     if (status == 1) find_worst(&n);
     void *blocks[] = {n.trial, n.residual, n.middle, n.after, n.step};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);

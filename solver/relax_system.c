@@ -298,6 +298,12 @@ int relax_system_solve(RelaxSystem *s, double shift, const double *residual, dou
     for (int i = 0; i < s->unknown_count; i++) shifted[start[i]] += shift * s->scale[i];
     if (!cholmod_factorize(s->shifted, s->factor, cm) && cm->status < 0) return -1;
     if (cm->status == CHOLMOD_NOT_POSDEF || s->factor->minor < (size_t)s->unknown_count) return 1;
+    return relax_system_backsolve(s, residual, step);
+}
+
+int relax_system_backsolve(RelaxSystem *s, const double *residual, double *step)
+{
+    cholmod_common *cm = &s->common;
     memcpy(s->right->x, residual, (size_t)s->unknown_count * sizeof *residual);
     cholmod_dense *solution = cholmod_solve(CHOLMOD_A, s->factor, s->right, cm);
     if (!solution) return -1;

@@ -55,6 +55,9 @@ void relax_system_assemble(RelaxSystem *system, const double *x, bool stiffness,
 /* Solves (K + shift D) step = residual. 0; 1: not positive definite; -1: out of memory. */
 int relax_system_solve(RelaxSystem *system, double shift, const double *residual, double *step);
 
+/* The same with the factor of the last solution. 0, or -1 out of memory. */
+int relax_system_backsolve(RelaxSystem *system, const double *residual, double *step);
+
 /* x = from + factor times the step of the unknowns; hanging nodes follow. */
 void relax_system_move(const RelaxSystem *system, const double *from, double factor, const double *step, double *x);
 
