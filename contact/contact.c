@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include "contact/contact_law.h"
+#include "contact/entity_loop.h"
 
 /* Steps at the largest speed that a search shall last. */
 #define SKIN_STEPS 24.0
@@ -35,7 +36,7 @@ static double stiffest_elements(const Model *m)
     return 4.0 * m->step_scale * m->step_scale;
 }
 
-static double room_left(const Model *m)
+double contact_room_left(const Model *m)
 {
     double room = 3.8 - stiffest_elements(m);
     return room < 0.2 ? 0.2 : room;
@@ -47,7 +48,7 @@ static double room_for_sliding(const Model *m)
     bool rubs = false;
     for (int i = 0; i < m->contact_count; i++)
         rubs = rubs || m->contacts[i].static_friction > 0.0 || m->contacts[i].dynamic_friction > 0.0;
-    return rubs ? 0.5 * room_left(m) : 0.0;
+    return rubs ? 0.5 * contact_room_left(m) : 0.0;
 }
 
 void contact_search(ContactLoop *loop, int thread, Team *team)
@@ -55,7 +56,7 @@ void contact_search(ContactLoop *loop, int thread, Team *team)
     double since = clock_seconds();
     if (thread == 0)
         contact_fill_room(loop, loop->state->contact_searched, stiffest_elements(loop->model),
-                          0.5 * room_left(loop->model));
+                          0.5 * contact_room_left(loop->model));
     contact_find_pairs(loop, thread, team);
     if (thread != 0) return;
     loop->searches++;
@@ -66,7 +67,8 @@ void contact_search(ContactLoop *loop, int thread, Team *team)
 static double choose_skin(const ContactLoop *loop)
 {
     const Model *m = loop->model;
-    double thickest = 0.0, side = INFINITY, skin = SKIN_STEPS * loop->fastest * loop->step.next;
+    double thickest = 0.0, side = m->contact_count > 0 ? INFINITY : m->entity_skin,
+           skin = SKIN_STEPS * loop->fastest * loop->step.next;
     for (int i = 0; i < m->contact_count; i++) {
         thickest = fmax(thickest, m->contacts[i].thickest);
         side = m->contacts[i].longest_side > 0.0 ? fmin(side, m->contacts[i].longest_side) : side;
@@ -96,6 +98,7 @@ void contact_prepare(ContactLoop *loop, double time, double before, double next,
 {
     double longer = before > next ? before : next;
     bool due = loop->search_due;
+    if (loop->entities) entities_look(loop, time, before, next, thread, team_size(team));
     if (thread == 0) {
         loop->step = (ContactStep){.time = time, .before = before, .next = next, .longer = longer};
         set_thinness(loop);
@@ -165,6 +168,7 @@ void contact_forces(ContactLoop *loop, int thread, int threads)
                 contact_meet_edges(loop, run, &law, g - faces, thread);
         }
     }
+    if (loop->entities) entities_push(loop, thread, threads);
 }
 
 /* Adds what the forces of one list give to the nodes [first, end), in the list's order. */
@@ -204,6 +208,7 @@ void contact_gather(ContactLoop *loop, int thread, int threads)
         gather_list(loop, &loop->runs[i].faces, first, end);
         gather_list(loop, &loop->runs[i].edges, first, end);
     }
+    if (loop->entities) entities_gather(loop, first, end);
 }
 
 /* Share of each element's nodes that are in contact, for leakage (docs/theory.md, Leakage). */
@@ -284,6 +289,7 @@ void contact_sum(ContactLoop *loop)
         sum_list(loop, run, &run->faces);
         sum_list(loop, run, &run->edges);
     }
+    if (loop->entities) entities_sum(loop);
     for (int k = 0; k < BILLOW_MAX_THREADS; k++) loop->out_of_memory = loop->out_of_memory || loop->parts[k].failed;
     for (int c = 0; c < loop->motion_count; c++) {
         const ContactMotion *m = &loop->motions[c];

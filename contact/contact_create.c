@@ -5,6 +5,7 @@
 #include "contact/contact_grid.h"
 #include "contact/contact_loop.h"
 #include "contact/contact_patches.h"
+#include "contact/entity_loop.h"
 #include "solver/memory.h"
 #include "solver/vector3.h"
 
@@ -59,6 +60,7 @@ void contact_free(ContactLoop *loop)
         memory_free(loop->runs[i].line_shell);
         memory_free(loop->runs[i].line_group);
     }
+    entities_free(loop->entities, loop->model);
     contact_grid_free(&loop->grid);
     memory_free(loop->box);
     for (int k = 0; loop->parts && k < BILLOW_MAX_THREADS; k++) {
@@ -221,7 +223,7 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     loop->rows = rows;
     loop->pressure = pressure;
     loop->corner = rows + CONTACT_ROW * (ptrdiff_t)model->contact_row;
-    loop->runs = memory_alloc((size_t)model->contact_count, sizeof *loop->runs);
+    loop->runs = memory_alloc((size_t)model->contact_count + 1, sizeof *loop->runs);
     loop->parts = memory_alloc(BILLOW_MAX_THREADS, sizeof *loop->parts);
     loop->motion_count = (model->moving_count + CONTACT_NODE_CHUNK - 1) / CONTACT_NODE_CHUNK;
     loop->motions = memory_alloc((size_t)loop->motion_count + 1, sizeof *loop->motions);
@@ -229,9 +231,10 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     loop->room = memory_alloc(6 * (size_t)model->node_count, sizeof(double));
     loop->around = memory_alloc((size_t)model->node_count, sizeof(double));
     loop->pulled = contact_list_pulled(model);
-    loop->resultant = memory_alloc(3 * (size_t)model->contact_count, sizeof(double));
+    loop->resultant = memory_alloc(3 * (size_t)model->contact_count + 1, sizeof(double));
+    if (model->entity_count > 0) loop->entities = entities_create(model, state);
     int status = loop->runs && loop->parts && loop->motions && loop->written && loop->resultant && loop->room &&
-                         loop->around && loop->pulled
+                         loop->around && loop->pulled && (model->entity_count == 0 || loop->entities)
                      ? 0
                      : -1;
     for (int i = 0; !status && i < model->contact_count; i++) status = run_create(loop, i);

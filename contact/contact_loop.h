@@ -179,9 +179,10 @@ typedef struct ContactLoop {
     size_t box_capacity;
     double *room; /* at the last search: (w dt)^2 that contact may add at a node in direction d is 1/(d . room d); xx yy
                    * zz xy yz zx (node_count x 6) */
-    double *around;        /* workspace: mass of the elements at each node (node_count) */
-    unsigned char *pulled; /* of the special nodes: contact_list_pulled (moving - free count) */
-    bool restored;         /* the first search of a restart: at the place and with the edges of the last one */
+    double *around;              /* workspace: mass of the elements at each node (node_count) */
+    unsigned char *pulled;       /* of the special nodes: contact_list_pulled (moving - free count) */
+    struct EntityLoop *entities; /* contact/entity_loop.h; NULL without */
+    bool restored;               /* the first search of a restart: at the place and with the edges of the last one */
     int64_t searches;
     double search_seconds;
     bool out_of_memory;
@@ -204,6 +205,9 @@ void contact_sum(ContactLoop *loop);   /* thread 0: partial sums of the two befo
 void contact_store(ContactLoop *loop); /* thread 0: memory and loads into the State */
 
 /* Inside. */
+/* What elements and gas leave of the limit 4 of (w dt)^2 in the elements' plane (eq. C12). */
+double contact_room_left(const Model *m);
+
 /* All threads: new pairs of groups at State.contact_searched. */
 void contact_search(ContactLoop *loop, int thread, Team *team);
 

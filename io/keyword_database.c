@@ -137,6 +137,7 @@ static void read_history_sets(KeywordRead *read)
     }
 static const KeywordSpec specs[] = {
     ASCII_RESULT("ABSTAT"),
+    ASCII_RESULT("GCEOUT"),
     ASCII_RESULT("GLSTAT"),
     ASCII_RESULT("MATSUM"),
     ASCII_RESULT("NODOUT"),

@@ -33,6 +33,7 @@ static const KeywordFamily *const families[] = {
     &keyword_family_erosion,
     &keyword_family_rigid_bodies,
     &keyword_family_contact,
+    &keyword_family_contact_entity,
     &keyword_family_control,
     &keyword_family_database,
     &keyword_family_ignored,

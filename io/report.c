@@ -56,6 +56,7 @@ void report_write_keywords(const Definitions *d, FILE *stream)
         {"extra nodes of rigid parts (*CONSTRAINED_EXTRA_NODES)", d->extra_nodes.count},
         {"nodal rigid bodies (*CONSTRAINED_NODAL_RIGID_BODY)", d->nodal_bodies.count},
         {"contacts (*CONTACT)", d->contacts.count},
+        {"contact entities", d->entities.count},
     };
     write_heading("Keywords", stream);
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
@@ -294,6 +295,7 @@ void report_write_plan(const Model *model, const OutputPlan *plan, FILE *stream)
         {"rbdout", plan->rbdout, model->rigid_body_count > 0},
         {"rwforc", plan->rwforc, model->wall_count > 0},
         {"rcforc", plan->rcforc, model->contact_count > 0},
+        {"gceout", plan->gceout, model->entity_count > 0},
     };
     write_heading("End and output", stream);
     fprintf(stream, "  end time %.9g", model->end_time);

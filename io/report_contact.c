@@ -1,6 +1,7 @@
 /* The report of contacts: who meets whom, and what lies too near or through each other at the start. */
 #include "contact/contact_check.h"
 #include "io/report.h"
+#include "solver/vector3.h"
 
 enum { LISTED_NODES = 200 };
 
@@ -56,9 +57,49 @@ static void write_findings(const Model *model, const ContactFindings *f, const N
             model->node_id[f->cross_edge[1]], f->cross_place[0], f->cross_place[1], f->cross_place[2]);
 }
 
+/* Signed distance of a probe at the start. */
+static double start_gap(const Model *model, const ContactEntity *e, int probe)
+{
+    double r[3], local[3];
+    for (int k = 0; k < 3; k++) {
+        r[k] = -e->origin[k];
+        for (int i = 0; i < 4; i++) r[k] += e->weight[4 * probe + i] * model->initial[3 * e->node[4 * probe + i] + k];
+    }
+    matrix3_apply(e->axes, r, local);
+    return entity_gap(e, local).distance - e->radius[probe];
+}
+
+static void write_entity(const Model *model, const ContactEntity *e, FILE *stream)
+{
+    static const char *const shapes[] = {"plane", "sphere", "cylinder", "ellipsoid"};
+    int inside = 0, worst = -1;
+    double deepest = -1e-9 * (e->size[0] + e->thickest); /* on the surface is not inside */
+    for (int p = 0; p < e->probe_count; p++) {
+        double gap = start_gap(model, e, p);
+        inside += gap < -1e-9 * (e->size[0] + e->thickest);
+        if (gap < deepest) worst = p;
+        deepest = gap < deepest ? gap : deepest;
+    }
+    fprintf(stream, "  entity %d: %s%s on %s part %d, at (%.6g, %.6g, %.6g)", e->id, e->inside ? "inside of a " : "",
+            shapes[e->shape], e->body < 0 ? "fixed" : "rigid", e->part_id, e->origin[0], e->origin[1], e->origin[2]);
+    if (e->shape == ENTITY_SPHERE || e->shape == ENTITY_CYLINDER) fprintf(stream, ", radius %.6g", e->size[0]);
+    if (e->shape == ENTITY_ELLIPSOID)
+        fprintf(stream, ", half axes %.6g, %.6g, %.6g", e->size[0], e->size[1], e->size[2]);
+    fprintf(stream, "; %d nodes", e->node_count);
+    if (e->probe_count > e->node_count) fprintf(stream, " and %d points", e->probe_count - e->node_count);
+    if (e->friction > 0.0) fprintf(stream, ", friction %.4g", e->friction);
+    if (inside == 0)
+        fprintf(stream, "\n    at the start none of them is within it\n");
+    else
+        fprintf(stream,
+                "\n    at the start %d of them are within it, the deepest by %.4g at node %d; they push only when "
+                "they come deeper still\n",
+                inside, -deepest, model->node_id[e->node[4 * worst]]);
+}
+
 void report_write_contacts(const Model *model, FILE *stream)
 {
-    if (model->contact_count == 0) return;
+    if (!model_has_contact(model)) return;
     fprintf(stream, "\nContacts\n--------\n");
     for (int i = 0; i < model->contact_count; i++) {
         const ContactInterface *c = &model->contacts[i];
@@ -73,4 +114,5 @@ void report_write_contacts(const Model *model, FILE *stream)
         if (contact_inspect(model, c, model->initial, &findings, list_near, &list) == 0)
             write_findings(model, &findings, &list, stream);
     }
+    for (int i = 0; i < model->entity_count; i++) write_entity(model, &model->entities[i], stream);
 }

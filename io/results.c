@@ -19,6 +19,7 @@ static const HistoryFormat *const formats[HISTORY_COUNT] = {
     [HISTORY_NODOUT] = &results_nodout_format, [HISTORY_ABSTAT_PARTS] = &results_abstat_parts_format,
     [HISTORY_RBDOUT] = &results_rbdout_format, [HISTORY_MATSUM] = &results_matsum_format,
     [HISTORY_RWFORC] = &results_rwforc_format, [HISTORY_RCFORC] = &results_rcforc_format,
+    [HISTORY_GCEOUT] = &results_gceout_format,
 };
 
 static char *join_path(const char *dir, const char *name)

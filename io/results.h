@@ -33,6 +33,7 @@ int results_write_nodout(Results *results, const Model *model, const State *stat
 int results_write_rbdout(Results *results, const Model *model, const State *state, const StepView *view);
 int results_write_rcforc(Results *results, const Model *model, const State *state, const StepView *view);
 int results_write_rwforc(Results *results, const Model *model, const State *state, const StepView *view);
+int results_write_gceout(Results *results, const Model *model, const State *state, const StepView *view);
 int results_write_matsum(Results *results, const Model *model, const State *state, const StepView *view);
 
 /* Hands all rows to the system: call before a checkpoint is written, so that no row before it can be lost. */

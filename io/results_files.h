@@ -16,6 +16,7 @@ typedef enum HistoryKind {
     HISTORY_MATSUM,
     HISTORY_RWFORC,
     HISTORY_RCFORC,
+    HISTORY_GCEOUT,
     HISTORY_COUNT
 } HistoryKind;
 
@@ -31,6 +32,7 @@ struct Results {
 
 /* Formats of the histories, defined beside their writers. */
 extern const HistoryFormat results_glstat_format, results_abstat_format, results_abstat_parts_format,
-    results_nodout_format, results_rbdout_format, results_matsum_format, results_rwforc_format, results_rcforc_format;
+    results_nodout_format, results_rbdout_format, results_matsum_format, results_rwforc_format, results_rcforc_format,
+    results_gceout_format;
 
 #endif

@@ -157,6 +157,7 @@ static int run_stages(Builder *b)
     if (build_airbags(b) || build_connections(b)) status = -1;
     if (build_walls(b)) status = -1;
     if (build_contacts(b)) status = -1;
+    if (build_entities(b)) status = -1;
     if (build_mass_scaling(b)) status = -1;
     lump_masses(b);
     if (build_movement(b)) status = -1;
@@ -165,8 +166,8 @@ static int run_stages(Builder *b)
     if (build_erosion_parts(b)) status = -1;
     if (status) return -1;
     if (build_pressure_sets(b)) return -1;
-    if (build_renumber(b) || build_contact_surfaces(b) || build_groups(b) || build_areas(b) || build_wall_nodes(b) ||
-        build_link_ends(b) || build_jets(b) || build_erosion(b))
+    if (build_renumber(b) || build_contact_surfaces(b) || build_entity_nodes(b) || build_groups(b) || build_areas(b) ||
+        build_wall_nodes(b) || build_link_ends(b) || build_jets(b) || build_erosion(b))
         return -1;
     set_origin(b);
     b->model->caps_push_rim = b->options->caps_push_rim;

@@ -288,8 +288,7 @@ static int list_masses(Builder *b)
 int build_contact_surfaces(Builder *b)
 {
     Model *m = b->model;
-    if (m->contact_count == 0) return 0;
-    if (list_masses(b)) return -1;
+    if (model_has_contact(m) && list_masses(b)) return -1;
     for (int i = 0; i < m->contact_count; i++) {
         ContactInterface *c = &m->contacts[i];
         const ContactSurfaces *s = &b->contacts[i];

@@ -126,6 +126,7 @@ int build_output(Builder *b)
     m->output.nodout = interval(b, "NODOUT");
     m->output.rbdout = interval(b, "RBDOUT");
     m->output.rcforc = interval(b, "RCFORC");
+    m->output.gceout = interval(b, "GCEOUT");
     m->output.rwforc = interval(b, "RWFORC");
     m->output.matsum = interval(b, "MATSUM");
     m->output.restart = interval(b, "BINARY_D3DUMP");

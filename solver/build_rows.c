@@ -21,7 +21,7 @@ typedef struct TableRange {
 static int cut_segments(Builder *b)
 {
     Model *m = b->model;
-    int count = 0, least = m->contact_count > 0 ? BILLOW_CONTACT_SEGMENTS : BILLOW_LEAST_SEGMENTS;
+    int count = 0, least = model_has_contact(m) ? BILLOW_CONTACT_SEGMENTS : BILLOW_LEAST_SEGMENTS;
     int length = m->chunk_count / least;
     length = length < 1 ? 1 : length > BILLOW_SEGMENT_CHUNKS ? BILLOW_SEGMENT_CHUNKS : length;
     for (int g = 0; g < m->group_count; g++) {
@@ -96,7 +96,7 @@ static int order_segments(Builder *b)
     for (int s = 0; !status && s < m->segment_count; s++) keys[s].segment = s;
     for (int n = 0; !status && n < m->node_count; n++) {
         for (int32_t k = m->node_row_start[n], s = 0;
-             k < m->node_row_start[n + 1] && (m->contact_count == 0 || m->node_row[k] < m->contact_row); k++) {
+             k < m->node_row_start[n + 1] && (!model_has_contact(m) || m->node_row[k] < m->contact_row); k++) {
             while (m->row_start[s + 1] <= m->node_row[k]) s++;
             keys[s].place += (double)n / (m->row_start[s + 1] - m->row_start[s]);
         }
@@ -129,9 +129,9 @@ static int list_rows(Builder *b, SegmentNodes *nodes)
 {
     Model *m = b->model;
     size_t count = (size_t)m->node_count;
-    int contact_nodes = m->contact_count > 0 ? m->moving_count : 0;
+    int contact_nodes = model_has_contact(m) ? m->moving_count : 0;
     m->contact_row = m->row_count;
-    m->row_count += m->contact_count > 0 ? m->node_count : 0;
+    m->row_count += model_has_contact(m) ? m->node_count : 0;
     m->row_set = builder_alloc(b, (size_t)m->row_count + 1, sizeof *m->row_set);
     m->node_row = builder_alloc(b, (size_t)m->row_count + 1, sizeof *m->node_row);
     m->node_row_start = builder_alloc(b, count + 2, sizeof *m->node_row_start);

@@ -137,6 +137,8 @@ int build_seam_nodes(Builder *builder); /* in the model's order; after the motio
 void mark_seam_nodes(const Builder *builder, unsigned char *special); /* by build_renumber */
 int build_contacts(Builder *builder);         /* who meets whom, in deck order; after build_shells */
 int build_contact_surfaces(Builder *builder); /* triangles, edges, neighbours; after build_renumber */
+int build_entities(Builder *builder);         /* contact entities, in deck order; after build_shells */
+int build_entity_nodes(Builder *builder);     /* the same in the model's order; after build_renumber */
 int build_erosion_parts(Builder *builder);    /* criteria of the parts; after build_parts and build_output */
 int build_erosion(
     Builder *builder); /* criteria of the groups, facets of the bags; after build_groups and build_areas */

@@ -59,6 +59,7 @@ void definitions_free(Definitions *d)
                      d->reference_shells.items,
                      d->spotwelds.items,
                      d->contacts.items,
+                     d->entities.items,
                      d->tied_nodes.items,
                      d->erosions.items};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) memory_free(lists[i]);

@@ -69,6 +69,7 @@ typedef struct Definitions {
     LIST(ReferenceNodeDefinition) reference_nodes;
     LIST(ReferenceShellDefinition) reference_shells;
     LIST(ContactDefinition) contacts;
+    LIST(EntityDefinition) entities;
 } Definitions;
 
 void definitions_free(Definitions *definitions);

@@ -32,4 +32,13 @@ typedef struct ContactDefinition {
     Source source, card1, card2, card3, card_a;
 } ContactDefinition;
 
+/* *CONTACT_ENTITY: a smooth shape on a rigid part. */
+typedef struct EntityDefinition {
+    int pid, geotyp, ssid, sstyp, intord, so, ithk, inout;
+    double sf, df, cf, birth, death;
+    double centre[3], a[3], b[3]; /* of the local system; a and b zero: the global axes */
+    double g[7];
+    Source source, card1, card2, card3, card4, card5;
+} EntityDefinition;
+
 #endif

@@ -17,6 +17,7 @@
 #include "airbag/sensor.h"
 #include "airbag/surface.h"
 #include "contact/contact.h"
+#include "contact/contact_entity.h"
 #include "contact/rigid_wall.h"
 #include "elements/erosion.h"
 #include "elements/law.h"
@@ -143,7 +144,7 @@ typedef struct Airbag {
 /* Output schedule from the *DATABASE cards; an interval of 0 means none. */
 typedef struct OutputPlan {
     double states; /* VTKHDF and XDMF */
-    double glstat, abstat, nodout, rbdout, rcforc, rwforc, matsum;
+    double glstat, abstat, nodout, rbdout, rcforc, rwforc, gceout, matsum;
     double restart;    /* checkpoint interval, 0: only at the end or on signal */
     int *history_node; /* nodes of nodout (history_count) */
     int history_count;
@@ -234,6 +235,11 @@ typedef struct Model {
     ContactInterface *contacts; /* contact/contact.h */
     int contact_row;            /* first of node_count rows with the contact forces, one more row of each node */
     double *contact_inverse;    /* inverse mass that contact feels of each node (node_count); NULL without contact */
+    int entity_count;
+    ContactEntity *entities;   /* contact/contact_entity.h */
+    size_t entity_probe_count; /* of all entities together */
+    double
+        entity_skin; /* mean side of the shells: how far nodes go until what is stiff at them is looked at anew [L] */
     size_t contact_edge_size;   /* entries of State.contact_sharp */
     size_t contact_memory_size; /* entries of State.contact_memory */
 
@@ -249,6 +255,12 @@ typedef struct Model {
     void **owned; /* blocks released by model_free */
     size_t owned_count, owned_capacity;
 } Model;
+
+/* Anything that pushes by the rows of contact: contacts or entities. */
+static inline bool model_has_contact(const Model *m)
+{
+    return m->contact_count > 0 || m->entity_count > 0;
+}
 
 void model_free(Model *model);
 

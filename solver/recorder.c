@@ -175,6 +175,7 @@ static int write_kinds(Recorder *recorder, unsigned kinds, const Model *model, c
         {SCHEDULE_NODOUT, results_write_nodout}, {SCHEDULE_RBDOUT, results_write_rbdout},
         {SCHEDULE_RCFORC, results_write_rcforc}, {SCHEDULE_RWFORC, results_write_rwforc},
         {SCHEDULE_MATSUM, results_write_matsum}, {SCHEDULE_STATES, results_write_state},
+        {SCHEDULE_GCEOUT, results_write_gceout},
     };
     int failed = 0;
     for (size_t i = 0; i < sizeof writers / sizeof *writers; i++)

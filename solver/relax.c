@@ -69,7 +69,7 @@ int relax_check(const Model *m, Diagnostics *diagnostics)
     if (m->rigid_body_count > 0)
         diagnostics_add(diagnostics, SEVERITY_NOTE, m->relax.source, keyword,
                         "rigid bodies are held where they are until the run begins");
-    if (m->contact_count > 0) {
+    if (model_has_contact(m)) {
         diagnostics_add(diagnostics, SEVERITY_ERROR, m->relax.source, keyword,
                         "contact takes no part in the equilibrium before the run, so surfaces could end within others: "
                         "take the phase or the *CONTACT keywords out of the deck");

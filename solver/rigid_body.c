@@ -158,10 +158,12 @@ void rigid_body_prescribe(const Constraints *constraints, int index, const Rigid
     }
 }
 
-/* Resultants of the nodal forces about the centre. */
-static void gather(const RigidBody *body, RigidState *state, const double *x, const double *f)
+/* Resultants about the centre of the nodal forces and of what acts beside them. */
+static void gather(const RigidBody *body, RigidState *state, const RigidField *field, const double *x, const double *f)
 {
-    double force[3] = {0, 0, 0}, moment[3] = {0, 0, 0};
+    double force[3], moment[3];
+    memcpy(force, field->force, sizeof force);
+    memcpy(moment, field->moment, sizeof moment);
     for (int k = 0; k < body->node_count; k++) {
         const double *node_force = f + 3 * (size_t)body->node[k];
         double arm[3], part[3];
@@ -320,7 +322,7 @@ void rigid_body_step(const RigidBody *body, RigidState *state, const double *x, 
     add_rows(body, prescription, true, &rotation);
     memcpy(v_before, state->v, sizeof v_before);
     memcpy(momentum_before, state->momentum, sizeof momentum_before);
-    gather(body, state, x, f);
+    gather(body, state, field, x, f);
     step_translation(body, state, field, &translation, dt_mean, !(2 * dt_mean - dt_next > 0), &done);
     step_rotation(body, state, field, &rotation, dt_mean, dt_next, &done);
     keep_full_step(body, state, v_before, momentum_before, dt_mean, dt_next);

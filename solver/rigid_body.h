@@ -61,10 +61,11 @@ typedef struct RigidPrescription {
     } item[BILLOW_RIGID_RATES];
 } RigidPrescription;
 
-/* Body acceleration and mass damping of one body at t_n. */
+/* Body acceleration, mass damping and what acts beside the nodal forces on one body at t_n. */
 typedef struct RigidField {
     double gravity[3];
-    double damping[6]; /* translation, rotation about the global axes [1/T] */
+    double damping[6];          /* translation, rotation about the global axes [1/T] */
+    double force[3], moment[3]; /* of contact entities, about the centre */
 } RigidField;
 
 /* Work done on the body over a step, by cause; rigid_body_step adds to it. The nodal forces' work is not in it. */

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-enum { SCHEDULE_COUNT = 8, DEFAULT_STATES = 20, DEFAULT_ROWS = 200 };
+enum { SCHEDULE_COUNT = 9, DEFAULT_STATES = 20, DEFAULT_ROWS = 200 };
 
 /* Share of a due time by which the end of a step may pass it: rounding of time sums. */
 static const double due_tolerance = 1e-12;
@@ -22,6 +22,7 @@ static const struct {
     {offsetof(OutputPlan, rcforc), offsetof(Clock, next_rcforc)},
     {offsetof(OutputPlan, rwforc), offsetof(Clock, next_rwforc)},
     {offsetof(OutputPlan, matsum), offsetof(Clock, next_matsum)},
+    {offsetof(OutputPlan, gceout), offsetof(Clock, next_gceout)},
 };
 
 static double interval_of(const OutputPlan *plan, int kind)
@@ -46,7 +47,7 @@ void schedule_fill_plan(OutputPlan *plan, double end_time, Diagnostics *diagnost
     if (!(end_time > 0.0)) return;
     const double rows = end_time / DEFAULT_ROWS;
     if (bare) {
-        plan->nodout = plan->rbdout = plan->rcforc = plan->rwforc = plan->matsum = rows;
+        plan->nodout = plan->rbdout = plan->rcforc = plan->rwforc = plan->gceout = plan->matsum = rows;
         diagnostics_add(diagnostics, SEVERITY_NOTE, BILLOW_NO_SOURCE, NULL,
                         "no *DATABASE card asks for results: %d states and %d rows of every history are written",
                         DEFAULT_STATES, DEFAULT_ROWS);

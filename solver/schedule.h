@@ -19,7 +19,8 @@ enum ScheduleKind {
     SCHEDULE_RCFORC = 1 << 5,
     SCHEDULE_RWFORC = 1 << 6,
     SCHEDULE_MATSUM = 1 << 7,
-    SCHEDULE_ALL = (1 << 8) - 1,
+    SCHEDULE_GCEOUT = 1 << 8,
+    SCHEDULE_ALL = (1 << 9) - 1,
 };
 
 /* Fills in the intervals the deck left out. Without any *DATABASE card: 20 states and 200 rows of every history over

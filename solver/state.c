@@ -26,6 +26,7 @@ static size_t lay_out_contact(const Model *model, State *state, unsigned char *b
     state->contact_load = take(base, &used, nodes * sizeof *state->contact_load);
     state->contact_sharp = take(base, &used, model->contact_edge_size);
     state->contact_memory = take(base, &used, model->contact_memory_size * sizeof *state->contact_memory);
+    state->entity_memory = take(base, &used, model->entity_probe_count * sizeof *state->entity_memory);
     state->contact_memories = take(base, &used, (size_t)model->contact_count * sizeof *state->contact_memories);
     return used;
 }
@@ -66,7 +67,7 @@ static size_t lay_out(const Model *model, State *state)
     state->reference =
         take(base, &used, (model->has_reference ? (size_t)model->group_count : 0) * sizeof *state->reference);
     state->reached = take(base, &used, model->liner_waits ? (size_t)model->padded_count : 0);
-    if (model->contact_count > 0) used = lay_out_contact(model, state, base, used);
+    if (model_has_contact(model)) used = lay_out_contact(model, state, base, used);
     return (used + 63) / 64 * 64;
 }
 

@@ -43,7 +43,7 @@ typedef struct Clock {
     double compliance; /* sum of |s|^2/m over the nodes under pressure, of the last cycle */
     int64_t cycle;
     double next_states, next_glstat, next_abstat, next_nodout, next_rbdout, next_rcforc, next_rwforc, next_matsum,
-        next_restart; /* times of the next outputs */
+        next_gceout, next_restart; /* times of the next outputs */
     int64_t states_written;
 } Clock;
 
@@ -90,6 +90,7 @@ typedef struct State {
     double *contact_load;      /* load of each node by its contacts, eq. C6 (node_count) */
     unsigned char *contact_sharp;  /* edges that meet edges, at the last search (Model.contact_edge_size) */
     ContactMemory *contact_memory; /* pairs in contact, as of the last cycle written (Model.contact_memory_size) */
+    ContactMemory *entity_memory;  /* of the probes of all entities (Model.entity_probe_count) */
     int32_t *contact_memories;     /* how many of each interface (contact_count) */
     double *tie_broken;            /* likewise of each tie (ties.count); written by step_ties_act */
     unsigned char *eroded; /* 1: the element is taken out (padded_count if Model.has_erosion, else none, likewise

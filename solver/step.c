@@ -182,7 +182,7 @@ static int prepare(Workspace *w)
     w->closed = true;
     /* velocities of nodes that never move stay zero; the view shows so */
     memcpy(w->velocity, w->state->v, 3 * (size_t)m->node_count * sizeof(double));
-    if (m->contact_count == 0) return 0;
+    if (!model_has_contact(m)) return 0;
     w->contact = contact_create(m, w->state, w->rows, w->bag_pressure);
     return w->contact ? 0 : -1;
 }

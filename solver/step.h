@@ -18,8 +18,9 @@ typedef struct StepView {
     const double *wall_force;    /* force of each wall on the nodes at t_n and its normal part (wall_count x 4) */
     const double *contact;   /* contact forces at t_n, first three of eight (node_count x 8); NULL without contact */
     const double *resultant; /* force on side A of each contact at t_n (contact_count x 3); NULL without contact */
-    double element_step;     /* stable step of the elements before TSSFAC */
-    int critical_element;    /* deck-order index of the element with the smallest step, -1 none */
+    const double *entity; /* force and moment on each contact entity at t_n (entity_count x 6); NULL without contact */
+    double element_step;  /* stable step of the elements before TSSFAC */
+    int critical_element; /* deck-order index of the element with the smallest step, -1 none */
 } StepView;
 
 /* Why a run stopped by itself. */

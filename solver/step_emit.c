@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "contact/entity_loop.h"
 #include "solver/memory.h"
 #include "solver/workspace.h"
 
@@ -95,6 +96,7 @@ void step_emit(Workspace *w)
                      .wall_force = w->wall_force,
                      .contact = w->contact ? w->contact->corner : NULL,
                      .resultant = w->contact ? w->contact->resultant : NULL,
+                     .entity = m->entity_count > 0 ? w->contact->entities->resultant : NULL,
                      .element_step = w->element_step,
                      .critical_element = find_critical(w)};
     w->plan.stop = w->hooks->emit(w->hooks->user, m, w->state, &view, w->plan.last) != 0;

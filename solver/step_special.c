@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "contact/entity_loop.h"
 #include "solver/step_links.h"
 #include "solver/step_seams.h"
 #include "solver/step_ties.h"
@@ -88,6 +89,7 @@ static void move_rigid_bodies(Workspace *w, NodeSums *t)
         RigidWork work = {0};
         if (m->loads.class_count) /* class 0 is empty */
             loads_body_at(&m->loads.classes[body->body_class], m->curves, plan->time, field.gravity, field.damping);
+        if (m->entity_count > 0) entities_add_wrench(w->contact, i, field.force, field.moment);
         rigid_body_prescribe(&m->constraints, i, body, &state->rigid[i], m->curves, plan->time, plan->dt_mean,
                              plan->dt_next, &prescription);
         rigid_body_step(body, &state->rigid[i], state->x, w->force, &field, &prescription, plan->dt_mean, plan->dt_next,

@@ -25,6 +25,7 @@ COLUMNS = {
     "nodout.csv": "time,node,x,y,z,ux,uy,uz,vx,vy,vz,ax,ay,az",
     "rbdout.csv": "time,part,x,y,z,vx,vy,vz,ax,ay,az",
     "rcforc.csv": "time,interface,side,fx,fy,fz",
+    "gceout.csv": "time,entity,part,fx,fy,fz,mx,my,mz",
     "rwforc.csv": "time,wall,normal_force,fx,fy,fz",
     "matsum.csv": "time,part,internal_energy,kinetic_energy,hourglass_energy,mass,x_momentum,y_momentum,z_momentum",
 }

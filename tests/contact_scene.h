@@ -22,6 +22,23 @@ static inline void scene_write_contact(SceneText *deck, const SceneContact *c)
     if (c->soft > 0 || c->sofscl > 0) SCENE_CARD(deck, c->soft, c->sofscl);
 }
 
+/* A *CONTACT_ENTITY in the global system. */
+typedef struct SceneEntity {
+    int part, shape, set, set_type;
+    double scale, damping, friction, g[7];
+    int order, thick, inside;
+} SceneEntity;
+
+static inline void scene_write_entity(SceneText *deck, const SceneEntity *e)
+{
+    scene_print(deck, "*CONTACT_ENTITY\n");
+    SCENE_CARD(deck, e->part, e->shape, e->set, e->set_type, e->scale, e->damping, e->friction, e->order);
+    SCENE_CARD(deck, 0, 0, 0, 0, e->thick);
+    SCENE_CARD(deck, 0, 0, 0, 1, 0, 0);
+    SCENE_CARD(deck, 0, 1, 0);
+    SCENE_CARD(deck, e->inside, e->g[0], e->g[1], e->g[2], e->g[3], e->g[4], e->g[5], e->g[6]);
+}
+
 /* Initial velocity of all nodes [first, end). */
 static inline void scene_write_speed(SceneText *deck, int first, int end, double vx, double vy, double vz)
 {
@@ -68,6 +85,43 @@ static inline void scene_crumple(Scene *scene)
     scene_write_contact(
         deck, &(SceneContact){
                   .keyword = "AUTOMATIC_SINGLE_SURFACE", .a_type = 5, .fs = 0.3, .fd = 0.1, .dc = 0.1, .vdc = 10});
+    scene_end(deck, mesh);
+}
+
+/* A patch that falls on a spinning body of smooth shapes, rubs on it and folds over it: contact entities with points
+ * within the elements, beside self-contact if wanted. */
+static inline void scene_drape(Scene *scene, bool self)
+{
+    SceneText *deck = &scene->deck;
+    SceneMesh *mesh = &scene->mesh;
+    deck->exact = true;
+    scene_add_sphere(mesh, 2, SCENE_QUADS, 3, 0.02);
+    int patch = scene_add_sheet(mesh, 1, SCENE_DIAGONAL, 20, 20, 0.1, 0.1, -0.047, -0.052, 0.031);
+    scene_begin(deck, "drape", 1, 0.9);
+    scene_write_part(deck, 1, 1, 1, "patch");
+    scene_write_part(deck, 2, 1, 2, "body");
+    scene_write_section(deck, 1, 9, 3e-4);
+    SceneFabric fabric = scene_isotropic(2, true, 800, 2e8, 0.3);
+    scene_write_fabric(deck, 1, &fabric);
+    scene_write_rigid(deck, 2, 400, 0, 0);
+    scene_print(deck, "*INITIAL_VELOCITY_RIGID_BODY\n");
+    SCENE_CARD(deck, 2, 0, 0, 0, 500, -700, 900);
+    scene_write_speed(deck, patch, mesh->node_count, 1, 0, -20);
+    scene_write_curve(deck, 1, 2, (const double[]){0, 1, 1, 1});
+    scene_print(deck, "*LOAD_GRAVITY_PART\n1,3,1,1e5\n");
+    scene_write_entity(deck, &(SceneEntity){.part = 2,
+                                            .shape = 4,
+                                            .set = 1,
+                                            .set_type = 1,
+                                            .friction = 0.3,
+                                            .damping = 80,
+                                            .order = 2,
+                                            .thick = 1,
+                                            .g = {0, 0, 0, 0.02, 0.03, 0.03}});
+    scene_write_entity(deck, &(SceneEntity){.part = 2, .shape = 2, .set = 1, .set_type = 1, .g = {0.03, 0, 0, 0.015}});
+    if (self)
+        scene_write_contact(
+            deck, &(SceneContact){.keyword = "AUTOMATIC_SINGLE_SURFACE", .a = 1, .a_type = 3, .fs = 0.2, .fd = 0.2});
     scene_end(deck, mesh);
 }
 

@@ -181,6 +181,11 @@ static void make_walls(Scene *scene)
     scene_end(deck, mesh);
 }
 
+static void make_drape(Scene *scene)
+{
+    scene_drape(scene, true);
+}
+
 static const struct DeterminismCase {
     const char *name;
     void (*make)(Scene *scene);
@@ -199,6 +204,7 @@ static const struct DeterminismCase {
              {"rigid bodies", make_bounce, false},
              {"walls and cables", make_walls, false},
              {"contact", scene_crumple, false},
+             {"contact entities", make_drape, false},
              {"torn bag", make_torn_bag, false},
              {"driver bag", NULL, false}};
 enum { CASE_COUNT = sizeof cases / sizeof cases[0] };

@@ -88,6 +88,7 @@ static void test_start(void **state)
                              .rbdout = 1.0,
                              .rcforc = 1.0,
                              .rwforc = 1.0,
+                             .gceout = 1.0,
                              .matsum = 1.0};
     const Clock clock = {0};
     assert_int_equal(schedule_due(&plan, &clock), SCHEDULE_ALL);

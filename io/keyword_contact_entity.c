@@ -1,0 +1,154 @@
+/* *CONTACT_ENTITY: a smooth shape that goes with a rigid part, met by nodes. */
+#include "io/keyword_table.h"
+
+/* The card as it is read; what billow does not use goes to unused. */
+typedef struct EntityCard {
+    EntityDefinition entity;
+    UnusedCard unused;
+} EntityCard;
+
+#define AT(member) offsetof(EntityCard, entity.member)
+static const FieldSpec card1_fields[] = {
+    CARD_INT("PID", pid, USED, ID_PART),     CARD_INT_OR("GEOTYP", geotyp, 1, USED, NONE),
+    CARD_INT("SSID", ssid, USED, NONE),      CARD_INT("SSTYP", sstyp, USED, NONE),
+    CARD_REAL_OR("SF", sf, 1.0, USED, NONE), CARD_REAL("DF", df, USED, NONE),
+    CARD_REAL("CF", cf, USED, NONE),         CARD_INT("INTORD", intord, USED, NONE),
+};
+#define ENTITY_UNUSED_INT(name, k)                                                                                     \
+    {                                                                                                                  \
+        name, 'I', 10, offsetof(EntityCard, unused.i[k]), 0, true, FIELD_LISTED, SCALE_NONE                            \
+    }
+static const FieldSpec card2_fields[] = {
+    CARD_REAL("BT", birth, USED, TIME), CARD_REAL_OR("DT", death, 1e20, USED, TIME), CARD_INT("SO", so, USED, NONE),
+    ENTITY_UNUSED_INT("GO", 0),         CARD_INT("ITHK", ithk, USED, NONE),          ENTITY_UNUSED_INT("SPR", 1),
+};
+static const FieldSpec card3_fields[] = {
+    CARD_REAL("XC", centre[0], USED, LENGTH), CARD_REAL("YC", centre[1], USED, LENGTH),
+    CARD_REAL("ZC", centre[2], USED, LENGTH), CARD_REAL("AX", a[0], USED, NONE),
+    CARD_REAL("AY", a[1], USED, NONE),        CARD_REAL("AZ", a[2], USED, NONE),
+};
+static const FieldSpec card4_fields[] = {
+    CARD_REAL("BX", b[0], USED, NONE),
+    CARD_REAL("BY", b[1], USED, NONE),
+    CARD_REAL("BZ", b[2], USED, NONE),
+};
+static const FieldSpec card5_fields[] = {
+    CARD_INT("INOUT", inout, USED, NONE), CARD_REAL("G1", g[0], USED, LENGTH), CARD_REAL("G2", g[1], USED, LENGTH),
+    CARD_REAL("G3", g[2], USED, LENGTH),  CARD_REAL("G4", g[3], USED, NONE),   CARD_REAL("G5", g[4], USED, NONE),
+    CARD_REAL("G6", g[5], USED, NONE),    CARD_REAL("G7", g[6], USED, NONE),
+};
+#undef AT
+static const CardSpec entity_cards[] = {
+    {"card 1", "", CARD_FIELDS(card1_fields)}, {"card 2", "", CARD_FIELDS(card2_fields)},
+    {"card 3", "", CARD_FIELDS(card3_fields)}, {"card 4", "", CARD_FIELDS(card4_fields)},
+    {"card 5", "", CARD_FIELDS(card5_fields)},
+};
+
+/* The shapes of LS-DYNA that are not there. */
+static bool check_shape(const KeywordRead *read, const EntityDefinition *e)
+{
+    static const char *const others[] = {"torus",
+                                         "CAL3D or MADYMO plane",
+                                         "CAL3D or MADYMO ellipsoid",
+                                         "VDA surface",
+                                         "mesh of a rigid body",
+                                         "finite plane",
+                                         "axisymmetric profile by a curve"};
+    if (e->geotyp >= 1 && e->geotyp <= 4) return true;
+    if (e->geotyp >= 5 && e->geotyp <= 11)
+        keyword_error(
+            read, e->card1,
+            "GEOTYP = %d (%s) is not there in billow " BILLOW_VERSION
+            "; use 1 (plane), 2 (sphere), 3 (cylinder) or 4 (ellipsoid), or mesh the shape as a rigid part in "
+            "a *CONTACT",
+            e->geotyp, others[e->geotyp - 5]);
+    else
+        keyword_error(read, e->card1,
+                      "GEOTYP = %d is no shape; use 1 (plane), 2 (sphere), 3 (cylinder) or 4 (ellipsoid)", e->geotyp);
+    return false;
+}
+
+static bool check_options(const KeywordRead *read, const EntityDefinition *e)
+{
+    const int errors = read->cards->diagnostics->errors;
+    if (e->sstyp < 0 || e->sstyp > 2)
+        keyword_error(read, e->card1, "SSTYP = %d: use 0 (node set), 1 (part) or 2 (part set)", e->sstyp);
+    if (!(e->sf > 0.0 && e->sf <= 10.0))
+        keyword_error(read, e->card1, "SF = %g must lie between 0 and 10: it scales a penalty that is stable by itself",
+                      e->sf);
+    if (!(e->df >= 0.0 && e->df <= 200.0))
+        keyword_error(read, e->card1,
+                      "DF = %g: give viscous damping in percent of critical, 0 to 200; a curve of it (DF < 0) is not "
+                      "read by billow " BILLOW_VERSION,
+                      e->df);
+    if (!(e->cf >= 0.0)) keyword_error(read, e->card1, "CF = %g: a coefficient of friction is not negative", e->cf);
+    if (e->intord < 0 || e->intord > 5)
+        keyword_error(read, e->card1, "INTORD = %d: use 0 (nodes only) to 5 (5 x 5 points in each segment)", e->intord);
+    if (e->intord > 0 && e->sstyp == 0)
+        keyword_error(read, e->card1,
+                      "INTORD = %d needs segments, but SSTYP = 0 names nodes: use SSTYP = 1 or 2, or INTORD = 0",
+                      e->intord);
+    if (e->so < 0)
+        keyword_error(read, e->card2,
+                      "SO = %d: a curve of force over penetration is not read by billow " BILLOW_VERSION "; use 0 or 1",
+                      e->so);
+    if (e->inout != 0 && e->inout != 1)
+        keyword_error(read, e->card5, "INOUT = %d: use 0 (nodes outside the shape) or 1 (inside)", e->inout);
+    return read->cards->diagnostics->errors == errors;
+}
+
+/* Lengths and positions by the include's factors; the local system by its transformation. */
+static void transform(const KeywordRead *read, EntityDefinition *e)
+{
+    bool bare = true;
+    for (int k = 0; k < 3; k++) bare = bare && e->a[k] == 0.0 && e->b[k] == 0.0;
+    if (bare) e->a[0] = e->b[1] = 1.0;
+    e->ssid = (int)keyword_scale(read, e->ssid, e->sstyp == 1 ? SCALE_ID_PART : SCALE_ID_SET);
+    for (int k = 3; k < 7; k++)
+        if (e->geotyp == 2 || e->geotyp == 3 ? k == (e->geotyp == 2 ? 3 : 6) : e->geotyp == 4 && k < 6)
+            e->g[k] = keyword_scale(read, e->g[k], SCALE_LENGTH);
+    keyword_transform_point(read, e->centre);
+    keyword_transform_vector(read, e->a);
+    keyword_transform_vector(read, e->b);
+}
+
+static void read_entity(KeywordRead *read)
+{
+    while (keyword_more(read) && !read->out_of_memory) {
+        EntityCard card = {.entity.source = read->cards->block->source};
+        EntityDefinition *e = &card.entity;
+        int status = keyword_card(read, 0, &card, true, &e->card1);
+        if (keyword_card(read, 1, &card, status == 0, &e->card2)) status = -1;
+        if (keyword_card(read, 2, &card, status == 0, &e->card3)) status = -1;
+        if (keyword_card(read, 3, &card, status == 0, &e->card4)) status = -1;
+        if (keyword_card(read, 4, &card, status == 0, &e->card5)) status = -1;
+        if (status) continue;
+        bool good = check_shape(read, e);
+        good = check_options(read, e) && good;
+        good = keyword_check_id(read, e->pid, "PID", e->card1) && good;
+        good = keyword_check_id(read, e->ssid, "SSID", e->card1) && good;
+        if (!good) continue;
+        transform(read, e);
+        EntityDefinition *entity = KEYWORD_APPEND(read, read->definitions->entities);
+        if (entity) *entity = *e;
+    }
+}
+
+static const KeywordSpec specs[] = {
+    {.name = "*CONTACT_ENTITY",
+     .cards = entity_cards,
+     .card_count = 5,
+     .read = read_entity,
+     .remark =
+         "A plane, sphere, infinite cylinder or ellipsoid that moves with the rigid part PID; nodes of SSID meet its "
+         "exact "
+         "surface. The shape is given in a local system with its origin at XC, YC, ZC and the directions A and B "
+         "(blank: the global ones). GEOTYP 1: point G1 to G3, normal G4 to G6; 2: centre G1 to G3, radius G4; 3: "
+         "point G1 to G3, axis G4 to G6, radius G7; 4: centre G1 to G3, half axes G4 to G6, order G7 = 2 (or "
+         "blank). Other GEOTYP are refused. INTORD = n: n x n points within each segment as well. ITHK = 1: half the "
+         "shells' thickness stays clear, for all shapes and SSTYP. SO 0 and 1 are one stable penalty, scaled by SF. "
+         "Nodes that "
+         "start inside push only when they come deeper. Forces: *DATABASE_GCEOUT. Numbered in deck order."},
+};
+
+const KeywordFamily keyword_family_contact_entity = {"Smooth rigid shapes", specs, (int)(sizeof specs / sizeof *specs)};
