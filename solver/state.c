@@ -120,7 +120,7 @@ static int initial_volumes(const Model *model, State *state, double *volume, dou
                 state->part_energy[group->part] +=
                     reference_energy(group, group->geometry + lane_offset(group, e), state->x, e);
         }
-        if (group->has_reference) state->part_hourglass[group->part] += sums.hourglass;
+        if (group->law != LAW_SURFACE) state->part_hourglass[group->part] += sums.hourglass;
         if (group->pressure_set < 0) continue;
         const PressureSet *set = &model->pressure_sets[group->pressure_set];
         for (int s = 0; s < set->count; s++) {

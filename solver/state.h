@@ -24,7 +24,7 @@ typedef struct ContactClock {
 typedef struct Energies {
     double kinetic, internal, hourglass, damping, contact;
     double external_work, airbag_work;
-    double initial; /* kinetic + internal at the start */
+    double initial; /* kinetic + internal + hourglass at the start */
     double largest; /* largest energy given so far, scale of the balance */
     double ratio, ratio_min, ratio_max;
     double airbag_half, external_half; /* works up to the half step after t_n */
