@@ -50,10 +50,12 @@ static int read_points(KeywordRead *read, CurveDefinition *curve)
     return status;
 }
 
-/* Abscissae must rise; a point that repeats its predecessor altogether is dropped. Reports the first fault only. */
+/* Abscissae must rise; a point that repeats its predecessor altogether is dropped. Reports the first fault only; the
+ * curve is kept without the points at fault, so that the rest of the deck can be checked. */
 static int check_points(KeywordRead *read, CurveDefinition *curve)
 {
     size_t kept = 0;
+    bool told = false;
     if (curve->x.count == 0) {
         keyword_error(read, curve->source, "curve %d has no points; write them on the lines after this one", curve->id);
         return -1;
@@ -64,10 +66,12 @@ static int check_points(KeywordRead *read, CurveDefinition *curve)
         if (kept > 0 && x <= curve->x.items[kept - 1]) {
             const Source source = {curve->source.file, curve->lines.items[i]};
             const bool equal = x == curve->x.items[kept - 1];
-            keyword_error(read, source, "curve %d: the abscissa %g %s %g before it; %s", curve->id, x,
-                          equal ? "repeats the" : "is less than the", curve->x.items[kept - 1],
-                          equal ? "give a jump a small width" : "the points must be in rising order");
-            return -1;
+            if (!told)
+                keyword_error(read, source, "curve %d: the abscissa %g %s %g before it; %s", curve->id, x,
+                              equal ? "repeats the" : "is less than the", curve->x.items[kept - 1],
+                              equal ? "give a jump a small width" : "the points must be in rising order");
+            told = read->kept = true;
+            continue;
         }
         curve->x.items[kept] = x;
         curve->y.items[kept] = y;

@@ -80,6 +80,7 @@ static void store_block(KeywordRead *read, const ReferenceBlockDefinition *block
 static void read_nodes(KeywordRead *read)
 {
     ReferenceBlockDefinition block = {.first = read->definitions->reference_nodes.count};
+    read->kept = true; /* nothing else names these records */
     const int head = read_head(read, &block), errors = read->cards->diagnostics->errors;
     while (keyword_more(read) && !read->out_of_memory) {
         ReferenceNodeDefinition card = {0};
@@ -97,6 +98,7 @@ static void read_nodes(KeywordRead *read)
 static void read_shells(KeywordRead *read)
 {
     ReferenceBlockDefinition block = {.is_shell = true, .first = read->definitions->reference_shells.count};
+    read->kept = true; /* nothing else names these records */
     const int head = read_head(read, &block), errors = read->cards->diagnostics->errors;
     while (keyword_more(read) && !read->out_of_memory) {
         ReferenceShellDefinition card = {0};

@@ -145,10 +145,11 @@ static int run_stages(Builder *b)
             build_solids(b);
             build_links(b);
         }
+        check_reference(b);
         return -1;
     }
     status = build_shells(b);
-    if (!status && build_reference(b)) status = -1;
+    if (status ? check_reference(b) : build_reference(b)) status = -1;
     if (build_solids(b)) status = -1;
     if (build_links(b) || status) return -1;
     errors = b->diagnostics->errors;

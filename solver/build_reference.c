@@ -5,6 +5,7 @@
 
 #include "solver/builder.h"
 #include "solver/memory.h"
+#include "solver/reference_order.h"
 #include "solver/reference_table.h"
 
 enum { LISTED = 200 }; /* messages of one kind: the first ones tell what is wrong */
@@ -22,10 +23,9 @@ typedef struct LateMass {
 typedef struct ReferenceBuild {
     Builder *b;
     ReferenceTable table;
-    double birth;   /* of all blocks with BIRTH: the last one read */
-    int32_t *stand; /* for which node of the mesh a panel's node stands, by majority, -1 none (node_count) */
-    int32_t *votes; /* (node_count) */
-    int32_t *uses;  /* shells at a panel's node (node_count) */
+    double birth; /* of all blocks with BIRTH: the last one read */
+    ReferenceOrder order;
+    int *line;      /* of each shell its last line in the tables of panels, from 1; 0 none (shell_count) */
     LateMass *late; /* (part_count) */
 } ReferenceBuild;
 
@@ -149,73 +149,73 @@ static int match_shell(ReferenceBuild *r, const ReferenceShellDefinition *card, 
     return shell;
 }
 
-/* Which node of the mesh each panel's node stands for: Boyer and Moore's majority over the shells. */
-static void vote(ReferenceBuild *r, const ShellRecord *record, const int32_t corner[4])
+/* The shell's place in the reference, from a matched line of a table. */
+static void place_shell(ReferenceBuild *r, const ReferenceBlockDefinition *block, const ReferenceShellDefinition *card,
+                        const PanelShell *panel)
 {
-    for (int a = 0; a < record->corner_count; a++) {
-        int32_t *votes = &r->votes[corner[a]], *stand = &r->stand[corner[a]];
-        if (*votes == 0) *stand = record->node[a];
-        *votes += *stand == record->node[a] ? 1 : -1;
-        r->uses[corner[a]]++;
+    ShellReference *reference = &r->b->references[panel->shell];
+    for (int a = 0; a < panel->corner_count; a++) {
+        reference_table_node(&r->table, panel->corner[a], reference->x + 3 * a);
+        reference_table_scale(&r->table, block, reference->x + 3 * a);
     }
+    reference->given = true;
+    reference->rdt = block->rdt;
+    reference->keyword = SHELLS;
+    reference->source = card->source;
+    reference->birth = shell_birth(r->b, panel->shell, 0.0);
 }
 
-/* Corners at which the neighbours agree when the shell's are taken from first on, forwards or backwards. */
-static int agreeing(const ReferenceBuild *r, const ShellRecord *record, const int32_t corner[4], int first, int step)
-{
-    int n = record->corner_count, count = 0;
-    for (int a = 0; a < n; a++) {
-        int32_t node = corner[(first + a * step + 8 * n) % n];
-        count += r->uses[node] > 1 && r->stand[node] == record->node[a];
-    }
-    return count;
-}
-
-/* Whether another order of the corners fits the neighbours better than the given one. */
-static bool is_disordered(const ReferenceBuild *r, const ShellRecord *record, const int32_t corner[4])
-{
-    int n = record->corner_count, given = agreeing(r, record, corner, 0, 1);
-    for (int first = 0; first < n; first++)
-        for (int step = -1; step <= 1; step += 2)
-            if (agreeing(r, record, corner, first, step) > given) return true;
-    return false;
-}
-
-static int take_block(ReferenceBuild *r, const ReferenceBlockDefinition *block, bool voting, int *listed)
+/* All lines of the tables against the mesh. */
+static int match_shells(ReferenceBuild *r, PanelShell *panels, int *listed)
 {
     Builder *b = r->b;
     const Definitions *d = b->definitions;
     int status = 0;
-    for (size_t i = block->first; i < block->first + block->count; i++) {
+    for (size_t i = 0; i < d->reference_shells.count; i++) {
+        PanelShell *panel = &panels[i];
+        panel->shell = match_shell(r, &d->reference_shells.items[i], panel->corner, listed);
+        if (panel->shell < 0) {
+            status = -1;
+            continue;
+        }
+        panel->corner_count = b->records[panel->shell].corner_count;
+        panel->node = b->records[panel->shell].node;
+    }
+    return status;
+}
+
+/* Order and winding of all shells, then of each; a shell that stands in two lines. */
+static int check_order(ReferenceBuild *r, const PanelShell *panels, int *listed)
+{
+    Builder *b = r->b;
+    const Definitions *d = b->definitions;
+    const int count = (int)d->reference_shells.count;
+    int status = 0, first = 0, twice = 0;
+    CornerOrder all = reference_order_vote(&r->order, panels, count);
+    while (first < count && panels[first].shell < 0) first++;
+    if (all != CORNERS_FIT) {
+        report(b, d->reference_shells.items[first].source, SHELLS, listed,
+               "the corners of the elements %s than under *ELEMENT_SHELL, as the nodes that they have in common show; "
+               "write N1 to N4 in the same order and winding there and here",
+               all == CORNERS_TURNED ? "begin with others" : "go round the other way");
+        return -1;
+    }
+    for (int i = 0; i < count; i++) {
+        if (panels[i].shell < 0) continue;
         const ReferenceShellDefinition *card = &d->reference_shells.items[i];
-        int32_t corner[4];
-        int unlisted = LISTED, shell = match_shell(r, card, corner, voting ? listed : &unlisted);
-        if (shell < 0) {
-            status = -1;
-            continue;
-        }
-        const ShellRecord *record = &b->records[shell];
-        ShellReference *reference = &b->references[shell];
-        if (voting) {
-            vote(r, record, corner);
-            continue;
-        }
-        if (is_disordered(r, record, corner)) {
-            report(b, card->source, SHELLS, listed,
-                   "element %d: N1 to N4 are in another order than under *ELEMENT_SHELL, as its neighbours show; the "
-                   "order and winding must be the same",
-                   card->id);
-            status = -1;
-        }
-        for (int a = 0; a < record->corner_count; a++) {
-            reference_table_node(&r->table, corner[a], reference->x + 3 * a);
-            reference_table_scale(&r->table, block, reference->x + 3 * a);
-        }
-        reference->given = true;
-        reference->rdt = block->rdt;
-        reference->keyword = SHELLS;
-        reference->source = card->source;
-        reference->birth = shell_birth(b, shell, 0.0);
+        const int before = r->line[panels[i].shell] - 1;
+        r->line[panels[i].shell] = i + 1;
+        if (before >= 0 && memcmp(panels[before].corner, panels[i].corner, sizeof panels[i].corner) != 0 &&
+            twice++ == 0)
+            diagnostics_add(b->diagnostics, SEVERITY_WARNING, card->source, SHELLS,
+                            "element EID = %d stands here again with other nodes, which count (line %d)", card->id,
+                            d->reference_shells.items[before].source.line);
+        if (!reference_order_differs(&r->order, &panels[i])) continue;
+        report(b, card->source, SHELLS, listed,
+               "element %d: N1 to N4 are in another order than under *ELEMENT_SHELL, as its neighbours show; the "
+               "order and winding must be the same",
+               card->id);
+        status = -1;
     }
     return status;
 }
@@ -252,19 +252,45 @@ static int take_shells(ReferenceBuild *r)
     Builder *b = r->b;
     const Definitions *d = b->definitions;
     if (d->reference_shells.count == 0) return 0;
-    size_t nodes = (size_t)b->node_count + 1;
-    r->stand = memory_alloc(nodes, sizeof *r->stand);
-    r->votes = memory_alloc(nodes, sizeof *r->votes);
-    r->uses = memory_alloc(nodes, sizeof *r->uses);
-    if (!r->stand || !r->votes || !r->uses) return -1;
-    int status = 0, listed = 0;
-    for (int pass = 0; pass < 2; pass++)
-        for (size_t i = 0; i < d->reference_blocks.count; i++)
-            if (d->reference_blocks.items[i].is_shell &&
-                take_block(r, &d->reference_blocks.items[i], pass == 0, &listed))
-                status = -1;
+    PanelShell *panels = memory_alloc(d->reference_shells.count, sizeof *panels);
+    r->line = memory_alloc((size_t)b->shell_count + 1, sizeof *r->line);
+    int status = panels && r->line && !reference_order_create(b->node_count, &r->order) ? 0 : -1, listed = 0;
+    if (!status) {
+        if (match_shells(r, panels, &listed)) status = -1;
+        if (check_order(r, panels, &listed)) status = -1;
+        for (size_t i = 0; i < d->reference_blocks.count; i++) {
+            const ReferenceBlockDefinition *block = &d->reference_blocks.items[i];
+            for (size_t k = block->first; block->is_shell && k < block->first + block->count; k++)
+                if (panels[k].shell >= 0) place_shell(r, block, &d->reference_shells.items[k], &panels[k]);
+        }
+    }
+    memory_free(panels);
     if (!status && check_coverage(r, &listed)) status = -1;
     return status;
+}
+
+/* Elements with some corners among the nodes of a block and some not: a node was forgotten, perhaps. */
+static void warn_of_partial_shells(const ReferenceBuild *r)
+{
+    const Builder *b = r->b;
+    int count = 0, first = -1, absent = -1;
+    for (int i = 0; i < b->shell_count; i++) {
+        const ShellRecord *record = &b->records[i];
+        if (!b->references[i].given || b->references[i].keyword != NODES) continue;
+        for (int a = 0; a < record->corner_count; a++) {
+            if (r->table.record[record->node[a]] >= 0) continue;
+            if (count++ == 0) {
+                first = i;
+                absent = record->node[a];
+            }
+            break;
+        }
+    }
+    if (count == 0) return;
+    diagnostics_add(b->diagnostics, SEVERITY_WARNING, b->references[first].source, NODES,
+                    "%d elements have some of their nodes here and some not, which keep their place under *NODE: the "
+                    "first is element %d with node %d; add the nodes if they were forgotten",
+                    count, b->definitions->shells.items[first].id, b->definitions->nodes.items[absent].id);
 }
 
 /* References of parts whose material has none: said once a part, then left out. */
@@ -314,11 +340,14 @@ static int finish_shell(ReferenceBuild *r, int i, int *listed)
     ElementInput input = {.kind = record->kind, .x = reference->x, .axis = record->axis, .law = &part->fabric};
     GeometryStatus problem = geometry_check(&input);
     if (problem != GEOMETRY_OK) {
-        report(b, reference->source, reference->keyword, listed, "element %d %s in the reference geometry",
-               b->definitions->shells.items[i].id,
-               problem == GEOMETRY_ZERO_AREA  ? "has no area"
-               : problem == GEOMETRY_INVERTED ? "is inverted: its corners do not go round a convex quadrilateral"
-                                              : "is normal to its fibre direction (AOPT)");
+        report(b, reference->source, reference->keyword, listed, "element %d %s", b->definitions->shells.items[i].id,
+               problem == GEOMETRY_ZERO_AREA
+                   ? "has no area in the reference geometry: its nodes lie on a line or in one point there; correct "
+                     "their coordinates, or take the element out of both geometries"
+               : problem == GEOMETRY_INVERTED
+                   ? "is inverted in the reference geometry: its corners do not go round a convex quadrilateral; "
+                     "correct the coordinates or the order of its nodes"
+                   : "is normal to its fibre direction (AOPT) in the reference geometry; choose another direction");
         return -1;
     }
     record->reference = reference_class(b, reference->birth, reference->rdt);
@@ -371,14 +400,24 @@ int build_reference(Builder *b)
         take_nodes(&r);
         if (take_shells(&r)) status = -1;
         drop_unused(b);
+        warn_of_partial_shells(&r);
         for (int i = 0; i < b->shell_count; i++)
             if (finish_shell(&r, i, &listed)) status = -1;
         warn_of_light_cloth(&r);
     }
     reference_table_free(&r.table);
-    memory_free(r.stand);
-    memory_free(r.votes);
-    memory_free(r.uses);
+    reference_order_free(&r.order);
+    memory_free(r.line);
     memory_free(r.late);
+    return status;
+}
+
+int check_reference(Builder *b)
+{
+    if (b->definitions->reference_blocks.count == 0) return 0;
+    ReferenceBuild r = {.b = b};
+    int status = reference_table_build(b->definitions, &r.table);
+    if (!status) status = check_nodes(&r);
+    reference_table_free(&r.table);
     return status;
 }

@@ -110,6 +110,7 @@ double beam_area(const SectionBeamDefinition *section);
 int build_parts(Builder *builder);     /* materials, sections -> laws */
 int build_shells(Builder *builder);    /* shells -> records, masses */
 int build_reference(Builder *builder); /* reference geometries; masses by them; after build_shells */
+int check_reference(Builder *builder); /* its nodes alone, where earlier stages have failed */
 int build_links(Builder *builder);     /* beams, springs, cables -> links, masses of nodes; after build_shells */
 int build_link_ends(Builder *builder); /* which links share an end, and its mass; after build_renumber */
 int build_solids(Builder *builder);    /* solids -> masses of their nodes; after build_shells */

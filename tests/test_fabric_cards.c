@@ -120,13 +120,13 @@ static void test_map_cards(void **unused)
     snprintf(text, sizeof text, "*MAT_FABRIC_MAP\n1,1.,1,1,1\n\n0,1,0,1e6,0,3,4\n0\n\n\n%s", curve);
     EXPECT(text, SEVERITY_ERROR, "21: card 3: BULKC (value 4)", "14: part 1 names material");
     snprintf(text, sizeof text, "*MAT_FABRIC_MAP\n1,1.,1,1,1\n\n2,1\n0\n\n\n%s%s", curve,
-             "*AIRBAG_REFERENCE_GEOMETRY\n1,0,0,0\n");
+             "*AIRBAG_REFERENCE_GEOMETRY\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n");
     EXPECT(text, SEVERITY_ERROR, "19: ISREFG = 2");
     snprintf(text, sizeof text, "*MAT_FABRIC\n1,1.,3e8\n0\n0,,,,,2\n0\n,,,,,,,1\n%s",
-             "*AIRBAG_REFERENCE_GEOMETRY\n1,0,0,0\n");
+             "*AIRBAG_REFERENCE_GEOMETRY\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n");
     EXPECT(text, SEVERITY_WARNING, "19: ISREFG = 1 acts with FORM = 12 only, here FORM = 2");
     snprintf(text, sizeof text, "*MAT_FABRIC_MAP\n1,1.,1,1,1\n\n1,1,1\n0\n\n\n%s%s", curve,
-             "*AIRBAG_REFERENCE_GEOMETRY\n1,0,0,0\n");
+             "*AIRBAG_REFERENCE_GEOMETRY\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n");
     EXPECT(text, SEVERITY_WARNING, "19: SRFAC = 1 has no effect beside ISREFG = 1");
 }
 

@@ -203,6 +203,51 @@ static void disordered_corners_are_refused(void **state)
            {4, "element 3: N1 to N4 are in another order"});
 }
 
+/* All shells of the tables alike, which no neighbour contradicts by itself. */
+static void common_order_is_checked(void **state)
+{
+    (void)state;
+    REFUSE("*AIRBAG_SHELL_REFERENCE_GEOMETRY\n1,1,14,15,12,11\n2,1,15,16,13,12\n3,1,17,16,15,15\n",
+           {2, "go round the other way"});
+    REFUSE("*AIRBAG_SHELL_REFERENCE_GEOMETRY\n1,1,12,15,14,11\n2,1,13,16,15,12\n3,1,16,17,15,15\n",
+           {2, "begin with others"});
+}
+
+static void expect_warning(const char *cards, int line, const char *text)
+{
+    VerifyRun run;
+    build(&run, cards);
+    bool found = false;
+    for (size_t k = 0; k < run.diagnostics.count; k++) {
+        const Message *m = &run.diagnostics.messages[k];
+        found |= m->severity == SEVERITY_WARNING && strstr(m->text, text) && m->source.line == FIRST_LINE + line;
+    }
+    if (!found) diagnostics_print(&run.diagnostics, SEVERITY_NOTE, stderr);
+    assert_true(found);
+    verify_free(&run);
+}
+
+/* Lines that were forgotten or stand twice are legal, and said. */
+static void doubtful_tables_are_warned_of(void **state)
+{
+    (void)state;
+    expect_warning(
+        "*AIRBAG_REFERENCE_GEOMETRY\n1,0,0,0\n2,1.2,0,0\n3,2.4,0,0\n4,0,1.2,0\n5,1.2,1.2,0\n7,2.4,2.4,0\n", 3,
+        "2 elements have some of their nodes here and some not, which keep their place under *NODE: the first "
+        "is element 2 with node 6");
+    expect_warning("*AIRBAG_SHELL_REFERENCE_GEOMETRY\n1,1,11,12,15,14\n2,1,12,13,16,15\n3,1,15,16,17,17\n"
+                   "1,1,1,2,5,4\n",
+                   5, "element EID = 1 stands here again with other nodes, which count (line 34)");
+}
+
+/* A curve or a material that cannot be does not hide what is wrong with the reference. */
+static void other_errors_hide_nothing(void **state)
+{
+    (void)state;
+    refuse("1,6,-1e6,1e6,,.3,.3\n,,,1\n0,,,,,2\n", "*AIRBAG_REFERENCE_GEOMETRY_ID\n1,1,1,1,98\n1,0,0,0\n99,0,0,0\n", 3,
+           (Expected[]){{0, "EA = -1e+06"}, {2, "NIDO = 98"}, {4, "NID = 99"}});
+}
+
 static void materials_say_what_becomes_of_it(void **state)
 {
     (void)state;
@@ -240,6 +285,13 @@ static void program_writes_and_refuses(void **state)
     program_write(&program, "b.k", deck, (size_t)length);
     assert_int_equal(program_run(&program, "run b.k"), 2);
     assert_non_null(strstr(program.err, "*INITIAL_FOAM_REFERENCE_GEOMETRY"));
+    length = head + snprintf(deck + head, sizeof deck - (size_t)head,
+                             "*AIRBAG_REFERENCE_GEOMETRY\n1,0,0,x\n99,0,0,0\n*DEFINE_CURVE\n7\n0,0\n2,1\n1,2\n*END\n");
+    program_write(&program, "c.k", deck, (size_t)length);
+    assert_int_equal(program_run(&program, "run c.k"), 2);
+    assert_non_null(strstr(program.err, "c.k:34: error: *AIRBAG_REFERENCE_GEOMETRY"));
+    assert_non_null(strstr(program.err, "c.k:35: error: *AIRBAG_REFERENCE_GEOMETRY: node NID = 99"));
+    assert_non_null(strstr(program.err, "c.k:40: error: *DEFINE_CURVE"));
     program_close(&program);
 }
 
@@ -249,7 +301,8 @@ int main(void)
         cmocka_unit_test(options_come_in_any_order),      cmocka_unit_test(scale_acts_about_its_origin),
         cmocka_unit_test(births_follow_the_manual),       cmocka_unit_test(bad_references_are_refused_in_one_list),
         cmocka_unit_test(disordered_corners_are_refused), cmocka_unit_test(materials_say_what_becomes_of_it),
-        cmocka_unit_test(program_writes_and_refuses),
+        cmocka_unit_test(program_writes_and_refuses),     cmocka_unit_test(common_order_is_checked),
+        cmocka_unit_test(doubtful_tables_are_warned_of),  cmocka_unit_test(other_errors_hide_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
