@@ -48,12 +48,12 @@ static void make_wall_bag(Scene *scene, const Options *options)
 
 static void make_impactor_sphere(Scene *scene, const Options *options)
 {
-    scene_impactor(scene, options->n, false);
+    scene_impactor(scene, options->n, SCENE_SPHERE, 0);
 }
 
 static void make_impactor_box(Scene *scene, const Options *options)
 {
-    scene_impactor(scene, options->n, true);
+    scene_impactor(scene, options->n, SCENE_BOX, 0);
 }
 
 static void make_pressed_bag(Scene *scene, const Options *options)

@@ -248,9 +248,15 @@ void scene_landing_pad(Scene *scene, int n);
 void scene_prestressed_cushion(Scene *scene, int n);
 void scene_sewn_bag(Scene *scene, int n);
 
-/* A cushion of n x n squares a side (n = 0: 24), at its static equilibrium, on the floor; a rigid sphere, or a box of a
- * head's size, drops on it (part 3). The bag vents when it is pressed. */
-void scene_impactor(Scene *scene, int n, bool box);
+typedef enum SceneStriker {
+    SCENE_BOX,            /* of a head's size, six shells */
+    SCENE_FACETED_SPHERE, /* the faces of 6 facets^2 shells */
+    SCENE_SPHERE,         /* the same shells, but a smooth sphere meets the cushion */
+} SceneStriker;
+
+/* A cushion of n x n squares a side (n = 0: 24) that is blown up on the floor; a rigid sphere or box drops on it (part
+ * 3). The bag vents when it is pressed. facets of a sphere: 0 for 6. */
+void scene_impactor(Scene *scene, int n, SceneStriker striker, int facets);
 
 /* A square bag of 4 n^2 triangles (n a multiple of 4; 0: 72) folded in eight layers, gap apart (0: their thickness),
  * that unfolds against itself. */

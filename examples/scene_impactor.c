@@ -27,29 +27,53 @@ static double part_area(const SceneMesh *mesh, int part)
     return area;
 }
 
+static const double radius = 0.0825;
+
 /* A sphere of 0.165 m, or a box of a head's size, above the cushion's middle. */
-static void add_impactor(SceneMesh *mesh, bool box, double middle, double bottom)
+static void add_impactor(SceneMesh *mesh, bool box, int facets, double middle, double bottom)
 {
-    const double radius = 0.0825, size[3] = {0.20, 0.15, 0.12};
+    const double size[3] = {0.20, 0.15, 0.12};
     const int first = mesh->node_count;
     if (box)
         scene_add_box(mesh, PART_IMPACTOR, PART_IMPACTOR, PART_IMPACTOR, size[0], size[1], size[2]);
     else
-        scene_add_sphere(mesh, PART_IMPACTOR, SCENE_QUADS, 6, radius);
+        scene_add_sphere(mesh, PART_IMPACTOR, SCENE_QUADS, facets, radius);
     const double shift[3] = {middle - (box ? 0.5 * size[0] : 0.0), middle - (box ? 0.5 * size[1] : 0.0),
                              bottom + (box ? 0.0 : radius)};
     scene_transform(mesh, first, (const double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}, shift);
 }
 
-void scene_impactor(Scene *scene, int n, bool box)
+/* What the cushion meets: the sphere itself, or the faces of the impactor's shells. */
+static void write_contact(SceneText *deck, SceneStriker striker, double middle, double bottom)
 {
-    const double side = 0.6, height = 0.16, mass = 6.8, speed = 4.0;
+    if (striker != SCENE_SPHERE) {
+        scene_print(deck, "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n");
+        SCENE_CARD(deck, 1, PART_IMPACTOR, 2, 3);
+        SCENE_CARD(deck, 0.3, 0.3);
+        SCENE_CARD(deck, 1, 1, 0, striker == SCENE_BOX ? 0 : 1e-6);
+        return;
+    }
+    scene_print(
+        deck,
+        "*CONTACT_ENTITY\n$ a sphere on the impactor meets nodes and 2 x 2 points in each shell of both panels\n");
+    SCENE_CARD(deck, PART_IMPACTOR, 2, 1, 2, 1, 0, 0.3, 2);
+    SCENE_CARD(deck, 0, 1e20, 0, 0, 1);
+    SCENE_CARD(deck, 0, 0, 0, 1, 0, 0);
+    SCENE_CARD(deck, 0, 1, 0);
+    SCENE_CARD(deck, 0, middle, middle, bottom + radius, radius);
+}
+
+void scene_impactor(Scene *scene, int n, SceneStriker striker, int facets)
+{
+    const double side = 0.6, height = 0.16, bottom = 2.0 * height + 0.24, mass = 6.8, speed = 4.0;
+    const bool box = striker == SCENE_BOX;
     SceneText *deck = &scene->deck;
     if (n <= 0) n = 24;
+    if (facets <= 0) facets = 6;
     scene_add_rectangle(&scene->mesh, PART_TOP, SCENE_QUADS, n, n, side, side);
     scene_transform(&scene->mesh, 0, (const double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}, (const double[]){0, 0, height});
     scene_sew_copy(&scene->mesh, PART_BOTTOM, select_edge, &side);
-    add_impactor(&scene->mesh, box, 0.5 * side, 2.0 * height + 0.24);
+    add_impactor(&scene->mesh, box, facets, 0.5 * side, bottom);
 
     scene_begin(deck, box ? "box of a head's size drops on a vented cushion" : "sphere drops on a vented cushion",
                 0.200, 0.9);
@@ -85,9 +109,6 @@ void scene_impactor(Scene *scene, int n, bool box)
     SCENE_CARD(deck, PART_IMPACTOR, 0, 0, -speed);
     scene_print(deck, "*RIGIDWALL_PLANAR_ID\n         1floor\n         0\n");
     SCENE_CARD(deck, 0, 0, 0, 0, 0, 1, 0.3);
-    scene_print(deck, "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n");
-    SCENE_CARD(deck, 1, PART_IMPACTOR, 2, 3);
-    SCENE_CARD(deck, 0.3, 0.3);
-    SCENE_CARD(deck, 1, 1);
+    write_contact(deck, striker, 0.5 * side, bottom);
     scene_end(deck, &scene->mesh);
 }
