@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "contact/convex_hull.h"
 #include "solver/billow.h"
 #include "solver/diagnostics.h"
 
@@ -15,6 +16,7 @@ typedef enum EntityShape {
     ENTITY_SPHERE,    /* about the origin, radius size[0] */
     ENTITY_CYLINDER,  /* about the third axis, infinite, radius size[0] */
     ENTITY_ELLIPSOID, /* about the origin, half axes size along the axes */
+    ENTITY_HULL,      /* the convex mesh of the part, about its origin within the radius size[0] */
 } EntityShape;
 
 /* Immutable; built by solver/build_entities.c, arrays owned by the Model. A probe is a point that must stay clear of
@@ -28,6 +30,7 @@ typedef struct ContactEntity {
     int body;                    /* index into Model.rigid_bodies, -1: the part never moves */
     double origin[3], axes[9];   /* at time 0; axes as rows [L] */
     double size[3];              /* radius, or half axes [L] */
+    ConvexHull hull;             /* of ENTITY_HULL */
     double friction;             /* Coulomb's coefficient, CF */
     double damping;              /* share of critical, DF/100 */
     double stiffness;            /* share of the stability limit 4 m/dt^2, SF/10 */
@@ -46,7 +49,7 @@ typedef struct EntityGap {
     double normal[3];
 } EntityGap;
 
-/* r: position along the shape's axes from its origin, the normal likewise. Equations (I1) to (I4). */
+/* r: position along the shape's axes from its origin, the normal likewise. Equations (I1) to (I4), (I9). */
 EntityGap entity_gap(const ContactEntity *entity, const double r[3]);
 
 #endif

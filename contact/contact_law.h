@@ -107,6 +107,14 @@ static inline void contact_begin(const ContactTouch *t, double normal_speed, dou
     *m = (ContactMemory){.side = t->side, .distance = t->gap + came < t->thickness ? t->gap + came : t->thickness};
 }
 
+/* An initial penetration eases; one that parts gets the distance at which its mean depth over the step is zero, so that
+ * it goes without a push (eq. C8b). cleared: the gap, of a parting pair less h. */
+static inline void contact_ease(const ContactTouch *t, double cleared, bool new_pair, ContactMemory *m)
+{
+    if (cleared > t->thickness) cleared = t->thickness;
+    if (cleared > m->distance || (new_pair && cleared < t->gap)) m->distance = cleared;
+}
+
 /* A gap that closes by more than the pair's velocity explains has jumped: onto another triangle or edge, or with lines
  * that turn. What it jumped by does no work, so the distance gives way by it (eq. C8a). */
 static inline void contact_yield(const ContactTouch *t, double normal_speed, double before, ContactMemory *m)
@@ -223,8 +231,7 @@ static inline int contact_push(const ContactLaw *law, ContactTouch *t, ContactMe
         }
         if (!new_pair) contact_yield(t, normal_speed, law->before, m);
         m->gap = t->gap;
-        if (t->gap > m->distance) /* an initial penetration that has eased (eq. C8) */
-            m->distance = t->gap < t->thickness ? t->gap : t->thickness;
+        contact_ease(t, normal_speed > 0.0 ? t->gap - h : t->gap, new_pair, m);
         contact_stiffen(t, (wanted < most ? wanted : most) / step2, new_pair, m);
         double depth = contact_mean_depth(m->distance - t->gap, h);
         force = m->stiffness * depth;

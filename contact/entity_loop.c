@@ -64,7 +64,7 @@ static double body_mobility(const ContactLoop *loop, int body, const double turn
  * the others, whose distance is as cheap. */
 static double far_square(const ContactLoop *loop, const ContactEntity *entity, const EntityFrame *frame, double half)
 {
-    if (entity->inside || (entity->shape != ENTITY_SPHERE && entity->shape != ENTITY_ELLIPSOID)) return INFINITY;
+    if (entity->inside || entity->shape == ENTITY_PLANE || entity->shape == ENTITY_CYLINDER) return INFINITY;
     double arm[3], spin = vector3_norm(frame->spin), turned = half * spin;
     vector3_subtract(frame->origin, frame->centre, arm);
     double size = fmax(entity->size[0], fmax(entity->size[1], entity->size[2])) + entity->thickest;
@@ -180,14 +180,6 @@ static ContactMasses masses_of(const ContactLoop *loop, const ContactEntity *ent
     return masses;
 }
 
-/* A probe that was closer at the start gets its distance back as it leaves; its mean depth over the step is then zero,
- * so that it leaves without a push (eq. I9). */
-static void ease(const ContactTouch *t, double cleared, bool new_pair, ContactMemory *m)
-{
-    if (cleared > t->thickness) cleared = t->thickness;
-    if (cleared > m->distance || (new_pair && cleared < t->gap)) m->distance = cleared;
-}
-
 /* Force on a probe that touches: penalty, damping, friction (eq. I8). */
 static void push_hit(const ContactLoop *loop, const ContactEntity *entity, const ContactLaw *law, double share,
                      EntityHit *hit, ContactMemory *m)
@@ -206,7 +198,7 @@ static void push_hit(const ContactLoop *loop, const ContactEntity *entity, const
     double most = root * root * masses.least, wanted = CONTACT_STIFFNESS * t.stiffness * masses.effective;
     if (new_pair) contact_begin(&t, speed, law->before, m);
     m->gap = t.gap;
-    ease(&t, speed > 0.0 ? t.gap - h : t.gap, new_pair, m);
+    contact_ease(&t, speed > 0.0 ? t.gap - h : t.gap, new_pair, m);
     contact_stiffen(&t, (wanted < most ? wanted : most) / step2, new_pair, m);
     double depth = contact_mean_depth(m->distance - t.gap, h), force = m->stiffness * depth;
     if (z > 0.0 && depth > 0.0) {

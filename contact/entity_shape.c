@@ -86,6 +86,7 @@ EntityGap entity_gap(const ContactEntity *entity, const double r[3])
     if (entity->shape == ENTITY_SPHERE) gap = sphere_gap(entity->size[0], r);
     if (entity->shape == ENTITY_CYLINDER) gap = cylinder_gap(entity->size[0], r);
     if (entity->shape == ENTITY_ELLIPSOID) gap = ellipsoid_gap(entity->size, r);
+    if (entity->shape == ENTITY_HULL) gap.distance = convex_hull_distance(&entity->hull, r, gap.normal);
     if (!entity->inside) return gap;
     gap.distance = -gap.distance;
     for (int k = 0; k < 3; k++) gap.normal[k] = -gap.normal[k];

@@ -47,24 +47,22 @@ static const CardSpec entity_cards[] = {
 /* The shapes of LS-DYNA that are not there. */
 static bool check_shape(const KeywordRead *read, const EntityDefinition *e)
 {
-    static const char *const others[] = {"torus",
-                                         "CAL3D or MADYMO plane",
-                                         "CAL3D or MADYMO ellipsoid",
-                                         "VDA surface",
-                                         "mesh of a rigid body",
-                                         "finite plane",
-                                         "axisymmetric profile by a curve"};
-    if (e->geotyp >= 1 && e->geotyp <= 4) return true;
+    static const char *const others[] = {
+        "torus", "CAL3D or MADYMO plane", "CAL3D or MADYMO ellipsoid",      "VDA surface",
+        "",      "finite plane",          "axisymmetric profile by a curve"};
+    if ((e->geotyp >= 1 && e->geotyp <= 4) || e->geotyp == 9) return true;
     if (e->geotyp >= 5 && e->geotyp <= 11)
-        keyword_error(
-            read, e->card1,
-            "GEOTYP = %d (%s) is not there in billow " BILLOW_VERSION
-            "; use 1 (plane), 2 (sphere), 3 (cylinder) or 4 (ellipsoid), or mesh the shape as a rigid part in "
-            "a *CONTACT",
-            e->geotyp, others[e->geotyp - 5]);
+        keyword_error(read, e->card1,
+                      "GEOTYP = %d (%s) is not there in billow " BILLOW_VERSION
+                      "; use 1 (plane), 2 (sphere), 3 (cylinder), 4 (ellipsoid) or 9 (convex mesh of the part), or "
+                      "mesh the shape as a rigid part in "
+                      "a *CONTACT",
+                      e->geotyp, others[e->geotyp - 5]);
     else
         keyword_error(read, e->card1,
-                      "GEOTYP = %d is no shape; use 1 (plane), 2 (sphere), 3 (cylinder) or 4 (ellipsoid)", e->geotyp);
+                      "GEOTYP = %d is no shape; use 1 (plane), 2 (sphere), 3 (cylinder), 4 (ellipsoid) or 9 (convex "
+                      "mesh of the part)",
+                      e->geotyp);
     return false;
 }
 
@@ -140,15 +138,17 @@ static const KeywordSpec specs[] = {
      .card_count = 5,
      .read = read_entity,
      .remark =
-         "A plane, sphere, infinite cylinder or ellipsoid that moves with the rigid part PID; nodes of SSID meet its "
-         "exact "
-         "surface. The shape is given in a local system with its origin at XC, YC, ZC and the directions A and B "
-         "(blank: the global ones). GEOTYP 1: point G1 to G3, normal G4 to G6; 2: centre G1 to G3, radius G4; 3: "
-         "point G1 to G3, axis G4 to G6, radius G7; 4: centre G1 to G3, half axes G4 to G6, order G7 = 2 (or "
-         "blank). Other GEOTYP are refused. INTORD = n: n x n points within each segment as well. ITHK = 1: half the "
-         "shells' thickness stays clear, for all shapes and SSTYP. SO 0 and 1 are one stable penalty, scaled by SF. "
-         "Nodes that "
-         "start inside push only when they come deeper. Forces: *DATABASE_GCEOUT. Numbered in deck order."},
+         "A plane, sphere, infinite cylinder, ellipsoid or convex mesh that moves with the rigid part PID; nodes of "
+         "SSID "
+         "meet its exact surface. The shape is given in a local system with its origin at XC, YC, ZC and the "
+         "directions "
+         "A and B (blank: the global ones). GEOTYP 1: point G1 to G3, normal G4 to G6; 2: centre G1 to G3, radius G4; "
+         "3: point G1 to G3, axis G4 to G6, radius G7; 4: centre G1 to G3, half axes G4 to G6, order G7 = 2 (or "
+         "blank); "
+         "9: the part's own shells or solids, a closed convex surface. Other GEOTYP are refused. INTORD = n: n x n "
+         "points within each segment as well. ITHK = 1: half the shells' thickness stays clear, for all shapes and "
+         "SSTYP. SO 0 and 1 are one stable penalty, scaled by SF. Nodes that start inside push only when they come "
+         "deeper. Forces: *DATABASE_GCEOUT. Numbered in deck order."},
 };
 
 const KeywordFamily keyword_family_contact_entity = {"Smooth rigid shapes", specs, (int)(sizeof specs / sizeof *specs)};

@@ -30,6 +30,9 @@ void report_write_conditions(const Model *model, FILE *stream);
 /* Rigid walls with the numbers of their nodes; nothing without one. */
 void report_write_walls(const Model *model, FILE *stream);
 
+/* Which rigid parts are closed and convex, and which of these lie in each other. 0, or -1 without memory. */
+int report_write_rigid_shapes(const Model *model, FILE *stream);
+
 /* Shells of which at least one is deformable and that go through each other without sharing a node, at the deck's
  * coordinates: how many pairs, the deepest and its place. 0, or -1 without memory. */
 int report_write_crossings(const Model *model, FILE *stream);

@@ -71,7 +71,7 @@ static double start_gap(const Model *model, const ContactEntity *e, int probe)
 
 static void write_entity(const Model *model, const ContactEntity *e, FILE *stream)
 {
-    static const char *const shapes[] = {"plane", "sphere", "cylinder", "ellipsoid"};
+    static const char *const shapes[] = {"plane", "sphere", "cylinder", "ellipsoid", "convex mesh"};
     int inside = 0, worst = -1;
     double deepest = -1e-9 * (e->size[0] + e->thickest); /* on the surface is not inside */
     for (int p = 0; p < e->probe_count; p++) {
@@ -85,6 +85,8 @@ static void write_entity(const Model *model, const ContactEntity *e, FILE *strea
     if (e->shape == ENTITY_SPHERE || e->shape == ENTITY_CYLINDER) fprintf(stream, ", radius %.6g", e->size[0]);
     if (e->shape == ENTITY_ELLIPSOID)
         fprintf(stream, ", half axes %.6g, %.6g, %.6g", e->size[0], e->size[1], e->size[2]);
+    if (e->shape == ENTITY_HULL)
+        fprintf(stream, ", %d corners and %d faces", e->hull.corner_count, e->hull.plane_count);
     fprintf(stream, "; %d nodes", e->node_count);
     if (e->probe_count > e->node_count) fprintf(stream, " and %d points", e->probe_count - e->node_count);
     if (e->friction > 0.0) fprintf(stream, ", friction %.4g", e->friction);

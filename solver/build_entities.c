@@ -62,8 +62,42 @@ static int turn_axes(Builder *b, const EntityDefinition *d, double axes[9])
     return 0;
 }
 
+/* GEOTYP 9: the faces of the part, which must be a closed convex surface. */
+static int find_hull(Builder *b, const EntityDefinition *d, ContactEntity *entity)
+{
+    int32_t part = id_map_find(&b->index.parts, d->pid);
+    if (part < 0) return -1; /* reported */
+    int32_t first = b->index.part_shell_start[part], count = b->index.part_shell_start[part + 1] - first;
+    int32_t *facet = memory_alloc(4 * (size_t)count + 1, sizeof *facet);
+    ConvexHull *hull = &entity->hull;
+    HullKind kind = HULL_OPEN;
+    int status = -1;
+    for (int32_t i = 0; facet && i < count; i++) {
+        const ShellRecord *r = &b->records[b->index.part_shell[first + i]];
+        for (int a = 0; a < 4; a++) facet[4 * i + a] = r->node[a < r->corner_count ? a : 2];
+    }
+    if (facet) status = convex_hull_make(count, facet, b->x, hull, &kind);
+    memory_free(facet);
+    if (status) return -1;
+    if (builder_adopt(b, hull->corner) | builder_adopt(b, hull->plane) | builder_adopt(b, hull->triangle) |
+        builder_adopt(b, hull->side))
+        return -1;
+    entity->shape = ENTITY_HULL;
+    memcpy(entity->origin, hull->origin, sizeof entity->origin);
+    for (int k = 0; k < 3; k++) entity->size[k] = hull->radius;
+    for (int k = 0; k < 3; k++) entity->axes[4 * k] = 1.0;
+    if (kind == HULL_CONVEX) return 0;
+    return refuse(b, d->card1,
+                  kind == HULL_OPEN ? "GEOTYP = 9: the mesh of the part is not closed; close it, or use a *CONTACT"
+                  : kind == HULL_FLAT
+                      ? "GEOTYP = 9: the mesh of the part encloses nothing; use a *CONTACT"
+                      : "GEOTYP = 9: the mesh of the part is not convex; use a *CONTACT, which meets its "
+                        "faces");
+}
+
 static int find_shape(Builder *b, const EntityDefinition *d, ContactEntity *entity)
 {
+    if (d->geotyp == 9) return find_hull(b, d, entity);
     static const EntityShape shapes[] = {ENTITY_PLANE, ENTITY_SPHERE, ENTITY_CYLINDER, ENTITY_ELLIPSOID};
     double moved[3];
     entity->shape = shapes[d->geotyp - 1];

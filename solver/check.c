@@ -22,9 +22,9 @@ static void print_report(Accepted *accepted, const char *deck)
     report_write_contacts(model, stdout);
     report_write_conditions(model, stdout);
     report_write_walls(model, stdout);
-    if (report_write_crossings(model, stdout))
+    if (report_write_crossings(model, stdout) || report_write_rigid_shapes(model, stdout))
         diagnostics_add(&accepted->diagnostics, SEVERITY_ENVIRONMENT, BILLOW_NO_SOURCE, NULL,
-                        "not enough memory to look for intersections of the mesh");
+                        "not enough memory to look for intersections of the mesh and shapes of rigid parts");
     report_write_plan(model, &plan, stdout);
     report_write_steps(model, LISTED_STEPS, stdout);
     report_write_messages(&accepted->diagnostics, stdout);

@@ -80,6 +80,23 @@ static void bounce(ScenePattern pattern, double vdc, double expected, double tol
     bounce_with(pattern, &(SceneContact){NODES_ON_PLATE, .vdc = vdc}, expected, tolerance);
 }
 
+/* A sheet that starts nearer than its thickness parts with its own speed: no push, no energy. */
+static void parting(void **state)
+{
+    (void)state;
+    Scene scene = {0};
+    begin(&scene, 1e-3);
+    int sheet = scene_add_sheet(&scene.mesh, 1, SCENE_QUADS, 8, 8, 0.08, 0.08, 0, 0, 1e-4);
+    int plate = scene_add_sheet(&scene.mesh, 2, SCENE_QUADS, 3, 3, 0.12, 0.12, -0.02, -0.02, 0);
+    scene_write_speed(&scene.deck, sheet, plate, 0, 0, 2);
+    scene_write_contact(&scene.deck, &(SceneContact){NODES_ON_PLATE});
+    scene_end(&scene.deck, &scene.mesh);
+    VerifyRun run;
+    verify_scene(&run, &scene, &(VerifyOptions){.every = 1});
+    verify_near("speed after over speed before", mean_speed(&run, sheet, plate, 2) / 2, 1, 1e-10);
+    verify_free(&run);
+}
+
 /* The sheet comes within its thickness of the plate at 0.14 ms and is 4 mm behind it at the end if nothing stops it. */
 static void birth_and_death(void **state)
 {
@@ -191,7 +208,8 @@ static void friction(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sheet_on_plate), cmocka_unit_test(birth_and_death),
-                                       cmocka_unit_test(momentum_is_kept), cmocka_unit_test(friction)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sheet_on_plate), cmocka_unit_test(parting),
+                                       cmocka_unit_test(birth_and_death), cmocka_unit_test(momentum_is_kept),
+                                       cmocka_unit_test(friction)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

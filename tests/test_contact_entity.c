@@ -200,6 +200,7 @@ static void momentum_is_kept(void **state)
     patch_on(4, ellipsoid, 0.3, 0, 2);
     patch_on(3, cylinder, 0, 20, 1);
     patch_on(1, plane, 0.3, 0, 0);
+    patch_on(9, sphere, 0.3, 20, 2);
 }
 
 static double mean_speed(const VerifyRun *run, int first, int end, int axis)

@@ -36,7 +36,7 @@ static void test_wrong_fields(void **state)
     (void)state;
     static const char k[] = "*CONTACT_ENTITY";
     assert_one_error(ENTITY("1,5,1", "0"), 2, k, "GEOTYP = 5 (torus)");
-    assert_one_error(ENTITY("1,9,1", "0"), 2, k, "GEOTYP = 9 (mesh of a rigid body)");
+    assert_one_error(ENTITY("1,10,1", "0"), 2, k, "GEOTYP = 10 (finite plane)");
     assert_one_error(ENTITY("1,12,1", "0"), 2, k, "GEOTYP = 12 is no shape");
     assert_one_error(ENTITY("1,2,1,3", "0"), 2, k, "SSTYP = 3");
     assert_one_error(ENTITY("1,2,1,0,-1", "0"), 2, k, "SF = -1");
@@ -78,7 +78,8 @@ static void test_wrong_models(void **state)
                                            "the axis of the cylinder",
                                            "the radius of the cylinder (G7)",
                                            "the half axes",
-                                           "the order of the ellipsoid"};
+                                           "the order of the ellipsoid",
+                                           "the mesh of the part is not closed"};
     VerifyRun run;
     assert_true(
         build(ENTITY("9,2,1,1", "0,0,0,0,1") ENTITY("1,2,1,1", "0,0,0,0,1") ENTITY("2,2,44,1", "0,0,0,0,1")
@@ -86,7 +87,7 @@ static void test_wrong_models(void **state)
                       ENTITY("2,2,3,1", "0,0,0,0,1") "*CONTACT_ENTITY\n2,2,1,1\n\n0,0,0,1\n2,0,0\n0,0,0,0,1\n" ENTITY(
                           "2,1,1,1", "0") ENTITY("2,2,1,1", "0") ENTITY("2,3,1,1", "0,0,0,0,0,0,0,1")
                           ENTITY("2,3,1,1", "0,0,0,0,0,0,1") ENTITY("2,4,1,1", "0,0,0,0,1,1,-1")
-                              ENTITY("2,4,1,1", "0,0,0,0,1,1,1,4"),
+                              ENTITY("2,4,1,1", "0,0,0,0,1,1,1,4") ENTITY("2,9,1,1", "0"),
               &run) != 0);
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
         if (!verify_message(&run.diagnostics, SEVERITY_ERROR, expected[i])) fail_msg("no error: %s", expected[i]);
@@ -153,10 +154,40 @@ static void test_report_and_results(void **state)
     program_close(&program);
 }
 
+/* What check says of rigid parts: two cubes in each other, one with a corner pushed in, an open sheet. */
+static void test_rigid_shapes(void **state)
+{
+    (void)state;
+    static Program program;
+    char text[6000];
+    int length = snprintf(text, sizeof text,
+                          "*CONTROL_TERMINATION\n1e-3\n*SECTION_SOLID\n1\n*SECTION_SHELL\n2,9\n.01\n"
+                          "*MAT_RIGID\n1,800\n\n\n*PART\na\n1,1,1\n*PART\nb\n2,1,1\n"
+                          "*PART\nc\n3,1,1\n*PART\nd\n4,2,1\n*NODE\n");
+    for (int cube = 0; cube < 3; cube++)
+        for (int i = 0; i < 8; i++) {
+            double x = (i % 4 == 1 || i % 4 == 2) + 0.75 * cube + 5 * (cube == 2), y = i % 4 >= 2, z = i >= 4;
+            if (cube == 2 && i == 6) x -= 0.5, y -= 0.5, z -= 0.5;
+            length += snprintf(text + length, sizeof text - (size_t)length, "%d,%g,%g,%g\n", 8 * cube + i + 1, x, y, z);
+        }
+    length += snprintf(text + length, sizeof text - (size_t)length,
+                       "25,20,0,0\n26,21,0,0\n27,21,1,0\n28,20,1,0\n*ELEMENT_SHELL\n9,4,25,26,27,28\n"
+                       "*ELEMENT_SOLID\n1,1,1,2,3,4,5,6,7,8\n2,2,9,10,11,12,13,14,15,16\n"
+                       "3,3,17,18,19,20,21,22,23,24\n*END\n");
+    program_open(&program);
+    program_write(&program, "rigid.k", text, (size_t)length);
+    assert_int_equal(program_run(&program, "check rigid.k"), BILLOW_EXIT_NORMAL);
+    const char *expected[] = {"part 1: closed and convex", "part 2: closed and convex", "part 3: closed, not convex",
+                              "part 4: not closed", "parts 1 and 2 lie in each other at the start, by up to 0.25 at"};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+        if (!strstr(program.out, expected[i])) fail_msg("%s\nlacks: %s", program.out, expected[i]);
+    program_close(&program);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cards), cmocka_unit_test(test_wrong_fields),
-                                       cmocka_unit_test(test_wrong_models), cmocka_unit_test(test_model),
-                                       cmocka_unit_test(test_report_and_results)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cards), cmocka_unit_test(test_wrong_fields),       cmocka_unit_test(test_wrong_models),
+        cmocka_unit_test(test_model), cmocka_unit_test(test_report_and_results), cmocka_unit_test(test_rigid_shapes)};
     return cmocka_run_group_tests_name("cards of contact entities", tests, NULL, NULL);
 }
