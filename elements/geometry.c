@@ -197,6 +197,7 @@ GeometryStatus geometry_fill(const ElementInput *input, double sign, double *lan
     tail[GEOMETRY_RATE * BILLOW_LANES] = rate;
     tail[GEOMETRY_STRESS_RATE * BILLOW_LANES] = spread * volume * corners / input->mass;
     tail[GEOMETRY_SIGN * BILLOW_LANES] = sign;
+    tail[GEOMETRY_PERIOD * BILLOW_LANES] = rate > 0.0 ? 1.0 / sqrt(rate) : 0.0;
     if (input->kind == ELEMENT_QUAD_ONE || point_has_fold(input)) {
         double *constant = tail + GEOMETRY_TAIL_SIZE * BILLOW_LANES;
         double skew[2], aa, bb, qq, c[2];

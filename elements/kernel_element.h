@@ -60,6 +60,7 @@ static LawInput make_law_input(const KernelInput *input)
     const ElementGroup *group = input->group;
     LawInput in = {
         .law = group->material, .inverse_step = input->inverse_step, .count_work = input->restart_ledger ? 0.0 : 1.0};
+    in.new_account = input->open_account || input->restart_ledger;
     in.has_history = group->has_history;
     in.hourglass = group->kind == ELEMENT_QUAD_ONE;
     if (group->law == LAW_GREEN && in.law.no_compression) in.compliance = make_compliance(&in.law.fabric);
@@ -73,8 +74,9 @@ static LawInput make_law_input(const KernelInput *input)
 
 #define KEEPS_HISTORY(mode, in) ((in)->has_history)
 
-static int kernel_mode(const ElementGroup *group)
+static int kernel_mode(const KernelInput *input)
 {
+    const ElementGroup *group = input->group;
     if (group->law == LAW_CURVE) return MODE_CURVE;
     return group->material.rubber->terms > 0 ? MODE_OGDEN : MODE_MOONEY;
 }
@@ -94,10 +96,12 @@ static int kernel_mode(const ElementGroup *group)
 #else
 #define KEEPS_HISTORY(mode, in) ((mode)&MODE_HISTORY)
 
-static int kernel_mode(const ElementGroup *group)
+static int kernel_mode(const KernelInput *input)
 {
+    const ElementGroup *group = input->group;
     int mode = group->history_size > 0 ? MODE_HISTORY : 0;
-    if (group->law == LAW_LOGARITHMIC) return MODE_LOGARITHMIC | MODE_HISTORY;
+    if (input->account && law_keeps_account(group->law, &group->material)) mode |= MODE_ACCOUNT;
+    if (group->law == LAW_LOGARITHMIC) return mode | MODE_LOGARITHMIC;
     if (group->law == LAW_BIOT) mode |= MODE_BIOT;
     if (group->material.no_compression) mode |= MODE_TENSION_FIELD;
     if (group->material.has_liner) mode |= MODE_LINER;
@@ -143,6 +147,15 @@ static int kernel_mode(const ElementGroup *group)
     case 24:                                                                                                           \
         WORK(24);                                                                                                      \
         break;                                                                                                         \
+    case 43:                                                                                                           \
+        WORK(43);                                                                                                      \
+        break;                                                                                                         \
+    case 47:                                                                                                           \
+        WORK(47);                                                                                                      \
+        break;                                                                                                         \
+    case 56:                                                                                                           \
+        WORK(56);                                                                                                      \
+        break;                                                                                                         \
     default:                                                                                                           \
         WORK(15);                                                                                                      \
         break;                                                                                                         \
@@ -155,7 +168,7 @@ typedef struct ElementPlace {
     const double *geometry, *tail; /* points, and what comes after them */
     double *metric;                /* history */
     float *stress;
-    double *memory;
+    double *account, *memory;
 } ElementPlace;
 
 ALWAYS_INLINE ElementPlace find_place(const KernelInput *input, int block, int pack, int corners, int points)
@@ -164,20 +177,27 @@ ALWAYS_INLINE ElementPlace find_place(const KernelInput *input, int block, int p
     ptrdiff_t lane = (ptrdiff_t)pack * PACK_WIDTH, first = (ptrdiff_t)block * LANES;
     const double *geometry = group->geometry + first * group->geometry_size + lane;
     double *history = input->history + group->history_offset + first * group->history_size;
+    double *account = input->account;
+    if (account) account += (group->first_element + first) * ACCOUNT_SIZE + lane;
     ElementPlace place = {.node = group->node + first * corners + lane,
                           .row = group->row + first * corners + lane,
                           .geometry = geometry,
                           .tail = geometry + (ptrdiff_t)points * GEOMETRY_POINT_SIZE * LANES,
                           .metric = history + lane,
                           .stress = (float *)(void *)(history + (ptrdiff_t)history_values(points) * LANES) + lane,
+                          .account = account,
                           .memory = history + (ptrdiff_t)history_size(points) * LANES + lane};
     return place;
 }
 
 ALWAYS_INLINE PointPlace point_place(const ElementPlace *place, int point)
 {
-    PointPlace at = {place->geometry + (ptrdiff_t)point * GEOMETRY_POINT_SIZE * LANES, place->tail, place->metric,
-                     place->stress, place->memory + (ptrdiff_t)point * MEMORY_POINT_SIZE * LANES};
+    PointPlace at = {place->geometry + (ptrdiff_t)point * GEOMETRY_POINT_SIZE * LANES,
+                     place->tail,
+                     place->metric,
+                     place->stress,
+                     place->account,
+                     place->memory + (ptrdiff_t)point * MEMORY_POINT_SIZE * LANES};
     return at;
 }
 

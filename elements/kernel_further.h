@@ -50,7 +50,7 @@ ALWAYS_INLINE void further_stress(int mode, bool one_point, const LawInput *in, 
         PackTensor s =
             mode & MODE_CURVE ? stress_curve(in, &place[i], &p[i]) : stress_rubber(mode, in, &place[i], &p[i]);
         if (in->has_history) /* with a memory the energy is the work of the stress */
-            s = with_history(one_point, in->law.has_memory, in, &place[i], s, &p[i]);
+            s = with_history(mode, one_point, in->law.has_memory, in, &place[i], s, &p[i]);
         p[i].p = natural_directions(place[i].point, s);
     }
 }

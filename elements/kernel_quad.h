@@ -136,18 +136,57 @@ ALWAYS_INLINE QuadProducts quad_stresses(int mode, const PointPack *p)
     return of;
 }
 
-/* Work of the stress in this step, and its history (eq. E14a). metric, stress: where the last step's are. */
+/* Forces conjugate to the products times these. */
+ALWAYS_INLINE Pack quad_contract(int mode, const QuadProducts *stress, const QuadProducts *of)
+{
+    Pack plain = stress->aa * of->aa + stress->bb * of->bb + stress->hh * of->hh;
+    Pack mixed = stress->ab * of->ab + stress->ah * of->ah + stress->bh * of->bh;
+    if (mode & MODE_BIOT) plain += stress->qq * of->qq;
+    return plain + 2.0 * mixed;
+}
+
+/* Work of the stress in this step, and its history (eq. E14a). */
 ALWAYS_INLINE Pack quad_work(int mode, const LawInput *in, const ElementPlace *place, const QuadProducts *change,
                              const QuadProducts *stress)
 {
     float *kept = place->stress;
-    Pack plain = sum_with_last(stress->aa, kept) * change->aa + sum_with_last(stress->bb, kept + LANES) * change->bb +
-                 sum_with_last(stress->hh, kept + 2 * LANES) * change->hh;
-    Pack mixed = sum_with_last(stress->ab, kept + 3 * LANES) * change->ab +
-                 sum_with_last(stress->ah, kept + 4 * LANES) * change->ah +
-                 sum_with_last(stress->bh, kept + 5 * LANES) * change->bh;
-    if (mode & MODE_BIOT) plain += sum_with_last(stress->qq, kept + 6 * LANES) * change->qq;
-    return (0.25 * in->count_work) * (plain + 2.0 * mixed);
+    QuadProducts sum = {sum_with_last(stress->aa, kept),
+                        sum_with_last(stress->bb, kept + LANES),
+                        sum_with_last(stress->ab, kept + 3 * LANES),
+                        sum_with_last(stress->ah, kept + 4 * LANES),
+                        sum_with_last(stress->bh, kept + 5 * LANES),
+                        sum_with_last(stress->hh, kept + 2 * LANES),
+                        mode & MODE_BIOT ? sum_with_last(stress->qq, kept + 6 * LANES) : pack_of(0.0)};
+    return (0.25 * in->count_work) * quad_contract(mode, &sum, change);
+}
+
+/* Lets the share of the stress act that the account allows (eq. F7b). */
+typedef struct QuadAccount {
+    Pack psi, damping; /* energy of the straight path; work of DAMP in the step */
+} QuadAccount;
+
+ALWAYS_INLINE QuadAccount quad_limit(int mode, const LawInput *in, const ElementPlace *place,
+                                     const QuadProducts *metric, const QuadProducts *change, const PointPack *p,
+                                     QuadProducts *stress)
+{
+    Pack trace = (p[0].trace + p[1].trace) + (p[2].trace + p[3].trace), damping = pack_of(0.0);
+    Pack drive = quad_contract(mode, stress, change), path = quad_contract(mode, stress, metric) - trace;
+    if (in->law.damping > 0.0) {
+        damping = (p[0].damping_drive + p[1].damping_drive) + (p[2].damping_drive + p[3].damping_drive);
+        drive -= damping;
+        path -= (p[0].damping_path + p[1].damping_path) + (p[2].damping_path + p[3].damping_path);
+    }
+    QuadAccount account = {.psi = 0.25 * path};
+    Pack share = acting_share(in, place->account, account.psi, 0.5 * drive);
+    account.damping = (0.5 * in->count_work) * share * damping;
+    stress->aa *= share;
+    stress->bb *= share;
+    stress->ab *= share;
+    stress->ah *= share;
+    stress->bh *= share;
+    stress->hh *= share;
+    stress->qq *= share;
+    return account;
 }
 
 ALWAYS_INLINE QuadProducts change_of_products(int mode, const ElementPlace *place, const QuadProducts *of)
@@ -207,6 +246,8 @@ ALWAYS_INLINE void quad_full_pack(int mode, const KernelInput *input, const LawI
     }
     natural_stress(mode, false, in, QUAD_POINTS, point, p);
     QuadProducts stress = quad_stresses(mode, p);
+    QuadAccount account;
+    if (mode & MODE_ACCOUNT) account = quad_limit(mode, in, &place, &metric, &change, p, &stress);
     quad_stress_forces(mode, &stress, &q);
     quad_area(lane_values(place.tail, GEOMETRY_SIGN), pack, &q, sums);
     quad_add(input, &place, &q);
@@ -215,6 +256,7 @@ ALWAYS_INLINE void quad_full_pack(int mode, const KernelInput *input, const LawI
     p[0].viscous = pack_of(0.0);
     if (KEEPS_HISTORY(mode, in)) {
         Pack work = quad_work(mode, in, &place, &change, &stress);
+        if (mode & MODE_ACCOUNT) keep_account(in, place.account, account.psi, work - account.damping);
         if (energy_is_work)
             p[0].energy = work;
         else
@@ -236,7 +278,7 @@ ALWAYS_INLINE void quad_full_blocks(int mode, const KernelInput *input, ChunkSum
 static void kernel_quad_full(const KernelInput *input, ChunkSums *sums)
 {
 #define WORK(mode) quad_full_blocks(mode, input, sums)
-    FOR_MODE(kernel_mode(input->group), WORK)
+    FOR_MODE(kernel_mode(input), WORK)
 #undef WORK
 }
 
@@ -305,7 +347,7 @@ ALWAYS_INLINE void quad_one_blocks(int mode, const KernelInput *input, ChunkSums
 static void kernel_quad_one(const KernelInput *input, ChunkSums *sums)
 {
 #define WORK(mode) quad_one_blocks(mode, input, sums)
-    FOR_MODE(kernel_mode(input->group), WORK)
+    FOR_MODE(kernel_mode(input), WORK)
 #undef WORK
 }
 

@@ -21,6 +21,7 @@ typedef struct LawInput {
     Compliance compliance;
     double inverse_step;
     double count_work;           /* 1, or 0 when histories are only filled */
+    bool new_account;            /* accounts begin */
     bool has_history, hourglass; /* of the group, for the further laws; hourglass: a one-point quad */
 } LawInput;
 
@@ -31,6 +32,7 @@ enum {
     MODE_LINER = 4,
     MODE_HISTORY = 8,      /* strain and stress of the last step are kept: stress-work ledger, damping */
     MODE_LOGARITHMIC = 16, /* with MODE_BIOT neither: Green */
+    MODE_ACCOUNT = 32,     /* stresses give back at most what they got */
 };
 
 /* Where the constants and histories of one pack of points lie. */
@@ -38,6 +40,7 @@ typedef struct PointPlace {
     const double *point, *tail; /* elements/kernels.h */
     double *metric;             /* C of the last step, of an element with one point */
     float *stress;              /* S likewise */
+    double *account;            /* of the element */
     double *memory;             /* of the further laws */
 } PointPlace;
 
@@ -47,6 +50,9 @@ typedef struct PointPack {
     PackTensor change; /* of c since the last step; where there are four points only with DAMP */
     PackTensor p;      /* weight x M S M^T, the stress in natural directions */
     Pack energy, viscous, rate;
+    /* where an element of several points keeps an account, weight x: tr S; of the stress of DAMP alone, V : change of C
+     * and V : (C - 1) */
+    Pack trace, damping_drive, damping_path;
 } PointPack;
 
 ALWAYS_INLINE Pack lane_values(const double *from, int quantity)
@@ -86,9 +92,10 @@ ALWAYS_INLINE PackTensor stress_biot(int mode, const LawInput *in, const PointPl
     PackTensor s = pull_back_biot(t, f);
     Pack reference = lane_values(place->tail, GEOMETRY_RATE);
     Pack stretched = f->wide * reference;
-    /* a slack element keeps its reference frequency, or what its liner has: it may be taut in the next cycle */
+    /* a slack element may be taut in the next cycle: it has that frequency, at most twice the reference's (eq. E24) */
     if (mode & MODE_TENSION_FIELD)
-        stretched = pack_where_positive(major, stretched, pack_larger(reference, in->law.slack_share * stretched));
+        stretched = pack_where_positive(
+            major, stretched, pack_larger(pack_smaller(stretched, 4.0 * reference), in->law.slack_share * stretched));
     /* compression stiffens against rotation in the plane; only the cut-off takes it away */
     Pack bound = mode & MODE_TENSION_FIELD ? major_bound(s) : size_bound(s);
     p->rate = stretched + bound * lane_values(place->tail, GEOMETRY_STRESS_RATE);
@@ -120,10 +127,7 @@ ALWAYS_INLINE PackTensor stress_green(int mode, const LawInput *in, const PointP
 ALWAYS_INLINE PackTensor add_damping(const LawInput *in, const PointPlace *place, PackTensor change, PackTensor s)
 {
     if (!(in->law.damping > 0.0)) return s;
-    /* lanes beyond the last element have no frequency */
-    Pack square = lane_values(place->tail, GEOMETRY_RATE),
-         factor = pack_where_positive(square, (in->law.damping * in->inverse_step) / pack_root(square + BILLOW_TINY),
-                                      pack_of(0.0));
+    Pack factor = (in->law.damping * in->inverse_step) * lane_values(place->tail, GEOMETRY_PERIOD);
     PackTensor rate = {factor * change.a11, factor * change.a22, factor * change.a12};
     return add_tensors(s, apply_moduli(&in->law.whole, rate));
 }
@@ -144,17 +148,63 @@ ALWAYS_INLINE Pack sum_with_last(Pack stress, float *kept)
     return sum;
 }
 
+/* Share of the stress that acts (eq. F7b). psi: energy of the straight path to the strain; drive: the work that the
+ * whole stress would do in this step. */
+#define BILLOW_ACCOUNT_HALF 0.5 /* share of psi below which an account limits what comes back */
+#define BILLOW_ACCOUNT_WAY 0.1  /* share of psi given or taken until the stress has followed */
+ALWAYS_INLINE Pack acting_share(const LawInput *in, double *account, Pack psi, Pack drive)
+{
+    if (in->new_account) {
+        pack_store(account + ACCOUNT_SHARE * LANES, pack_of(1.0));
+        return pack_of(1.0);
+    }
+    Pack last = pack_load(account + ACCOUNT_SHARE * LANES), by_psi = 1.0 / pack_larger(psi, pack_of(BILLOW_TINY));
+    Pack allowed = pack_larger(pack_load(account) * by_psi * (1.0 / BILLOW_ACCOUNT_HALF), pack_of(0.0));
+    Pack aim = pack_smaller(pack_where_positive(drive, pack_of(1.0), allowed), pack_of(1.0));
+    Pack way = pack_smaller(pack_absolute(drive) * by_psi * (1.0 / BILLOW_ACCOUNT_WAY), pack_of(1.0));
+    Pack share = last + way * (aim - last);
+    pack_store(account + ACCOUNT_SHARE * LANES, share);
+    return share;
+}
+
+/* work: of the step, without that of DAMP. */
+ALWAYS_INLINE void keep_account(const LawInput *in, double *account, Pack psi, Pack work)
+{
+    pack_store(account, in->new_account ? psi : pack_load(account) + work);
+}
+
+ALWAYS_INLINE PackTensor scale_tensor(Pack factor, PackTensor t)
+{
+    PackTensor scaled = {factor * t.a11, factor * t.a22, factor * t.a12};
+    return scaled;
+}
+
 /* An element of one point: damping and the stress-work ledger, dW = (S_n + S_n+1)/2 : (E_n+1 - E_n), 2 dE = dC (eq. E12
  * to E14). */
-ALWAYS_INLINE PackTensor keep_history(bool energy_is_work, const LawInput *in, const PointPlace *place, PackTensor s,
-                                      PointPack *p)
+ALWAYS_INLINE PackTensor keep_history(int mode, bool energy_is_work, const LawInput *in, const PointPlace *place,
+                                      PackTensor s, PointPack *p)
 {
     PackTensor change = {change_of(p->c.a11, place->metric), change_of(p->c.a22, place->metric + LANES),
                          change_of(p->c.a12, place->metric + 2 * LANES)};
+    Pack weight = lane_values(place->point, GEOMETRY_WEIGHT), psi = pack_of(0.0);
+    if (mode & MODE_ACCOUNT) {
+        psi = 0.25 * weight * (contract(s, p->c) - (s.a11 + s.a22));
+        Pack drive = 0.5 * weight * contract(s, change);
+        s = scale_tensor(acting_share(in, place->account, psi, drive), s);
+    }
+    PackTensor elastic = s;
     s = add_damping(in, place, change, s);
     PackTensor sum = {sum_with_last(s.a11, place->stress), sum_with_last(s.a22, place->stress + LANES),
                       sum_with_last(s.a12, place->stress + 2 * LANES)};
-    Pack work = (0.25 * in->count_work) * lane_values(place->point, GEOMETRY_WEIGHT) * contract(sum, change);
+    Pack work = (0.25 * in->count_work) * weight * contract(sum, change);
+    if (mode & MODE_ACCOUNT) {
+        Pack given = work;
+        if (in->law.damping > 0.0) {
+            PackTensor viscous = add_tensors(s, scale_tensor(pack_of(-1.0), elastic));
+            given -= (0.5 * in->count_work) * weight * contract(viscous, change);
+        }
+        keep_account(in, place->account, psi, given);
+    }
     if (energy_is_work)
         p->energy = work;
     else
@@ -163,10 +213,22 @@ ALWAYS_INLINE PackTensor keep_history(bool energy_is_work, const LawInput *in, c
 }
 
 /* What the history adds to the stress of a point. */
-ALWAYS_INLINE PackTensor with_history(bool one_point, bool energy_is_work, const LawInput *in, const PointPlace *place,
-                                      PackTensor s, PointPack *p)
+ALWAYS_INLINE PackTensor with_history(int mode, bool one_point, bool energy_is_work, const LawInput *in,
+                                      const PointPlace *place, PackTensor s, PointPack *p)
 {
-    return one_point ? keep_history(energy_is_work, in, place, s, p) : add_damping(in, place, p->change, s);
+    if (one_point) return keep_history(mode, energy_is_work, in, place, s, p);
+    PackTensor all = add_damping(in, place, p->change, s);
+    if (mode & MODE_ACCOUNT) {
+        Pack weight = lane_values(place->point, GEOMETRY_WEIGHT);
+        p->trace = weight * (all.a11 + all.a22);
+        p->damping_drive = p->damping_path = pack_of(0.0);
+        if (in->law.damping > 0.0) {
+            PackTensor viscous = add_tensors(all, scale_tensor(pack_of(-1.0), s));
+            p->damping_drive = weight * contract(viscous, p->change);
+            p->damping_path = weight * (contract(viscous, p->c) - (viscous.a11 + viscous.a22));
+        }
+    }
+    return all;
 }
 
 /* FORM 0 and 1 (eq. F1 to F7) from C to the natural stress: a stage for each root. count: known where this is
@@ -204,7 +266,7 @@ ALWAYS_INLINE void natural_stress_biot(int mode, bool one_point, const LawInput 
         if (mode & MODE_LINER) t[i] = add_tensors(t[i], biot_elastic(&in->law.liner, state[i].stretch));
         PackTensor s = stress_biot(mode, in, &place[i], &state[i], t[i], major, &p[i]);
         p[i].viscous = pack_of(0.0);
-        if (mode & MODE_HISTORY) s = with_history(one_point, true, in, &place[i], s, &p[i]);
+        if (mode & MODE_HISTORY) s = with_history(mode, one_point, true, in, &place[i], s, &p[i]);
         p[i].p = natural_directions(place[i].point, s);
     }
 }
@@ -222,7 +284,7 @@ ALWAYS_INLINE void natural_stress(int mode, bool one_point, const LawInput *in, 
         p[i].viscous = pack_of(0.0);
         PackTensor s = mode & MODE_LOGARITHMIC ? stress_logarithmic(in, &place[i], &p[i])
                                                : stress_green(mode, in, &place[i], &p[i]);
-        if (mode & MODE_HISTORY) s = with_history(one_point, mode & MODE_LOGARITHMIC, in, &place[i], s, &p[i]);
+        if (mode & MODE_HISTORY) s = with_history(mode, one_point, mode & MODE_LOGARITHMIC, in, &place[i], s, &p[i]);
         p[i].p = natural_directions(place[i].point, s);
     }
 }

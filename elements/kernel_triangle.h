@@ -93,7 +93,7 @@ ALWAYS_INLINE void triangle_blocks(int mode, const KernelInput *input, ChunkSums
 static void kernel_triangle(const KernelInput *input, ChunkSums *sums)
 {
 #define WORK(mode) triangle_blocks(mode, input, sums)
-    FOR_MODE(kernel_mode(input->group), WORK)
+    FOR_MODE(kernel_mode(input), WORK)
 #undef WORK
 }
 

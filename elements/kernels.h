@@ -23,9 +23,11 @@ enum {
     GEOMETRY_WEIGHT,     /* reference area x thickness of the point [L3] */
     GEOMETRY_POINT_SIZE, /* doubles per point */
     /* after the points: */
-    GEOMETRY_RATE = 0,    /* exact largest squared frequency of the element in its reference state [1/T2] */
-    GEOMETRY_STRESS_RATE, /* bound of the geometric stiffness: squared frequency per unit of stress [1/T2/(F/L2)] */
+    GEOMETRY_RATE = 0,    /* the element's part in the bound of the mesh: its exact largest squared frequency in its
+                             reference state times its node share (eq. E20, E20b) [1/T2] */
+    GEOMETRY_STRESS_RATE, /* likewise of the geometric stiffness: squared frequency per unit of stress [1/T2/(F/L2)] */
     GEOMETRY_SIGN,        /* +1 or -1: orientation of the area vector; 0 in padding lanes */
+    GEOMETRY_PERIOD,      /* 1 / the element's own largest frequency in its reference state, for DAMP [T] */
     GEOMETRY_TAIL_SIZE,
     /* after the tail, quads that use the hourglass vector: one point, or FORM 0, 1 */
     GEOMETRY_SKEW1 = 0,
@@ -57,6 +59,11 @@ static inline int history_size(int points)
 /* After that of all points: what a law of elements/kernel_further.h remembers at each point (kernel_curve_law.h). */
 enum { MEMORY_POINT_SIZE = 10 };
 
+/* Account of an element (eq. F7b), per lane: the energy that its stress may give back; the share of the stress that
+ * acts.
+ */
+enum { ACCOUNT_HELD, ACCOUNT_SHARE, ACCOUNT_SIZE };
+
 /* Corner sums: one row for each node of a segment (Model.row_start) [doubles]: the stress force, one unused, the area
  * vector that takes the pressure, one unused. A row fills a cache line. */
 enum { ROW_SIZE = 8, ROW_AREA = 4 };
@@ -82,6 +89,8 @@ typedef struct KernelInput {
     double *rows;         /* corner sums, added to (row_count x ROW_SIZE); NULL: left out */
     double *lane_rate;    /* squared frequency per lane of the blocks, or NULL */
     bool restart_ledger;  /* first call: histories are filled, no work is counted */
+    double *account;      /* accounts of the model's elements (padded count x ACCOUNT_SIZE, by blocks); NULL: closed */
+    bool open_account;    /* the chunk's first call with accounts: they begin with the energy of the strain */
 } KernelInput;
 
 typedef void ElementKernel(const KernelInput *input, ChunkSums *sums);

@@ -56,6 +56,11 @@ bool law_stores_energy(LawKind kind, const FabricLaw *law)
     return kind == LAW_GREEN || kind == LAW_RUBBER || (kind == LAW_CURVE && !law->has_memory);
 }
 
+bool law_keeps_account(LawKind kind, const FabricLaw *law)
+{
+    return kind == LAW_LOGARITHMIC || (kind == LAW_BIOT && law->no_compression);
+}
+
 bool law_has_history(LawKind kind, const FabricLaw *law)
 {
     if (kind == LAW_SURFACE) return false;

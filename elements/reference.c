@@ -220,9 +220,8 @@ static void point_stress(const ElementGroup *group, const double *tail, const do
     for (int i = 0; memory && i < law_memory_size(group->law, law); i++) kept[i] = memory[(ptrdiff_t)i * LANES];
     law_point(group->law, law, c, kept, 1, 0.0, 0.0, &point);
     for (int i = 0; i < 3; i++) stress[i] = point.stress[i];
-    double rate = tail[GEOMETRY_RATE * LANES];
-    if (!before || !(law->damping > 0.0) || !(rate > 0.0)) return;
-    double factor = law->damping / (dt * sqrt(rate)), d11 = factor * (c[0] - before[0]),
+    if (!before || !(law->damping > 0.0)) return;
+    double factor = law->damping * tail[GEOMETRY_PERIOD * LANES] / dt, d11 = factor * (c[0] - before[0]),
            d22 = factor * (c[1] - before[1]);
     stress[0] += law->whole.d11 * d11 + law->whole.d12 * d22;
     stress[1] += law->whole.d12 * d11 + law->whole.d22 * d22;

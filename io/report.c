@@ -270,8 +270,11 @@ void report_write_steps(const Model *model, int limit, FILE *stream)
     if (count == 0) {
         fprintf(stream, "  no element sets the step: it follows the gas, the curves and the output interval\n");
     } else {
-        fprintf(stream, "  smallest %.6g in element %d; times the scale factor %.4g: %.6g\n", list[0].step,
-                model->element_id[list[0].element], model->step_scale, model->step_scale * list[0].step);
+        const double mesh = element_steps_mesh(model);
+        fprintf(stream, "  of the mesh, whose nodes share their elements: %.6g; times the scale factor %.4g: %.6g\n",
+                mesh, model->step_scale, model->step_scale * mesh);
+        fprintf(stream, "  smallest of an element by itself: %.6g in element %d\n", list[0].step,
+                model->element_id[list[0].element]);
         fprintf(stream, "  %10s %10s %14s\n", "element", "part", "step");
         for (int i = 0; i < count; i++)
             fprintf(stream, "  %10d %10d %14.6g\n", model->element_id[list[i].element],

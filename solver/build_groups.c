@@ -63,6 +63,7 @@ static void place_groups(Model *m)
         ElementGroup *group = &m->groups[g];
         group->block_count = (group->element_count + LANES - 1) / LANES;
         group->geometry_size = geometry_size(group->kind, group->law);
+        m->has_accounts |= law_keeps_account(group->law, &group->material);
         group->has_history = law_has_history(group->law, &group->material);
         group->history_size = group->has_history ? history_size(group->point_count) : 0;
         group->history_size += group->point_count * law_memory_size(group->law, &group->material);
@@ -91,13 +92,6 @@ static const char *geometry_problem(GeometryStatus status)
     return "";
 }
 
-/* Which geometry an element's constants are of. */
-typedef enum Geometry {
-    GEOMETRY_MESH,
-    GEOMETRY_REFERENCE, /* without the tension that it has in the mesh; the mesh's if there is no reference */
-    GEOMETRY_TENSION,   /* with it */
-} Geometry;
-
 /* Kernel input of one record; x receives the corners in the mesh. */
 static ElementInput record_input(const Builder *b, int record, const double *positions, Geometry which, double *x)
 {
@@ -123,7 +117,7 @@ static int lane_record(const Builder *b, const ElementGroup *group, int first, i
 
 /* Fills a group's constants from one geometry; lanes beyond the last element have weight and sign 0. -1 without memory,
  * 1 after an error of the deck. */
-static int fill_geometry(Builder *b, const ElementGroup *group, int first, Geometry which, const double **filled)
+static int fill_geometry(Builder *b, const ElementGroup *group, int first, Geometry which, double **filled)
 {
     size_t size = (size_t)group->block_count * (size_t)group->geometry_size * LANES;
     double *geometry = builder_alloc(b, size, sizeof *geometry);
@@ -174,16 +168,20 @@ static int fill_group(Builder *b, ElementGroup *group, int first)
         if (e < group->element_count && record < b->shell_count) m->element_slot[record] = group->first_element + e;
     }
     group->node = node;
-    int status = fill_geometry(b, group, first, group->rule.keeps_tension ? GEOMETRY_TENSION : GEOMETRY_REFERENCE,
-                               &group->geometry);
+    const Geometry acts = group->rule.keeps_tension ? GEOMETRY_TENSION : GEOMETRY_REFERENCE;
+    double **constants = b->constants + (ptrdiff_t)GEOMETRY_COUNT * (group - m->groups);
+    int status = fill_geometry(b, group, first, acts, &constants[acts]);
+    group->geometry = constants[acts];
     if (status >= 0 && group->has_reference && group->birth > 0.0) {
-        int mesh = fill_geometry(b, group, first, GEOMETRY_MESH, &group->mesh_geometry);
+        int mesh = fill_geometry(b, group, first, GEOMETRY_MESH, &constants[GEOMETRY_MESH]);
         status = mesh < 0 ? mesh : status | mesh;
+        group->mesh_geometry = constants[GEOMETRY_MESH];
     }
     if (!status && group->has_reference) status = fill_start(b, group);
     if (status >= 0 && group->has_reference && group->rule.restore != RESTORE_NEVER) {
-        int tension = fill_geometry(b, group, first, GEOMETRY_TENSION, &group->tension_geometry);
+        int tension = fill_geometry(b, group, first, GEOMETRY_TENSION, &constants[GEOMETRY_TENSION]);
         status = tension < 0 ? tension : status | tension;
+        group->tension_geometry = constants[GEOMETRY_TENSION];
     }
     return status;
 }
@@ -221,6 +219,8 @@ int build_groups(Builder *b)
     Model *m = b->model;
     if (fill_elements(b) || cut_groups(b)) return -1;
     place_groups(m);
+    b->constants = builder_alloc(b, (size_t)GEOMETRY_COUNT * (size_t)m->group_count, sizeof *b->constants);
+    if (!b->constants) return -1;
     int first = 0, status = 0;
     for (int g = 0; g < m->group_count; g++) {
         int filled = fill_group(b, &m->groups[g], first);
@@ -228,7 +228,7 @@ int build_groups(Builder *b)
         status |= filled;
         first += m->groups[g].element_count;
     }
-    return status || build_rows(b) ? -1 : 0;
+    return status || build_node_shares(b) || build_rows(b) ? -1 : 0;
 }
 
 /* The largest squared frequency of an element: before and after the birth of its reference geometry, with its initial

@@ -199,8 +199,8 @@ static void warn_of_undamped(Builder *b, const MaterialDefinition *m, const Part
     if (part->law != LAW_BIOT || !law->no_compression || law->damping > 0.0 || law->fabric.d12 == 0.0) return;
     diagnostics_add(
         b->diagnostics, SEVERITY_WARNING, m->source, "*MAT_FABRIC",
-        "material %d: FORM = %g with CSE = 1 and DAMP = 0 has no stored energy and may gain some in long runs; "
-        "DAMP = 0.05 keeps it",
+        "material %d: FORM = %g with CSE = 1 and DAMP = 0 has no stored energy: accounts limit what it gives "
+        "back; DAMP = 0.05 makes its crimps quieter",
         m->id, (double)m->fabric.form);
 }
 

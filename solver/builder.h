@@ -37,6 +37,14 @@ typedef struct ShellReference {
     Source source;
 } ShellReference;
 
+/* Which geometry an element's constants are of. */
+typedef enum Geometry {
+    GEOMETRY_MESH,
+    GEOMETRY_REFERENCE, /* without the tension that it has in the mesh; the mesh's if there is no reference */
+    GEOMETRY_TENSION,   /* with it */
+    GEOMETRY_COUNT
+} Geometry;
+
 /* Shells of one class share the time from which the reference acts and the rule of the step. */
 typedef struct ReferenceClass {
     double birth;
@@ -79,6 +87,7 @@ typedef struct Builder {
     LIST(ReferenceClass) reference_classes;
     struct ContactSurfaces *contacts; /* (contact count), solver/build_contact.h */
     SurfaceClosure *closures;         /* (airbag count), nodes in deck order until build_renumber */
+    double **constants;               /* of each group by Geometry (group count x GEOMETRY_COUNT), NULL where unused */
     int32_t *order;                   /* element order: order[k] = record of the k-th element in group order */
 } Builder;
 
@@ -127,6 +136,7 @@ int build_output(Builder *builder);            /* termination, step control, out
 int build_mass_scaling(Builder *builder);      /* DT2MS */
 int build_renumber(Builder *builder);          /* node and element order for locality */
 int build_groups(Builder *builder);            /* blocks, kernel constants */
+int build_node_shares(Builder *builder);       /* bound of the mesh's frequency; by build_groups */
 int build_rows(Builder *builder);              /* segments and rows of corner sums */
 int build_walls(Builder *builder);             /* rigid walls and their nodes; after build_shells */
 int build_wall_nodes(Builder *builder);        /* the same in the model's order; after build_renumber */

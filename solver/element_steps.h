@@ -6,8 +6,12 @@
 
 typedef struct ElementStep {
     int element; /* deck-order index */
-    double step; /* 2 / largest frequency in the reference state, before TSSFAC [T] */
+    double step; /* 2 / its own largest frequency in the reference state [T] */
 } ElementStep;
+
+/* Stable step of the mesh in the reference state, before DAMP and TSSFAC (eq. E20b) [T]; 0 without elements with
+ * stress. */
+double element_steps_mesh(const Model *model);
 
 /* The limit smallest steps of elements with stress, in ascending order (equal steps in deck order), into list (limit).
  * Returns how many there are, 0 without memory. */

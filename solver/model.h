@@ -171,6 +171,7 @@ typedef struct Model {
     double *element_thickness; /* (element_count) [L] */
     double *element_mass;      /* (element_count) [M] */
     bool has_reference;        /* some group has a reference geometry */
+    bool has_accounts;         /* some group's stress may feed the motion: State.account is there */
     bool has_erosion;          /* some group has criteria: State.eroded is there */
     bool liner_waits;          /* of some group: State.reached is there */
 

@@ -40,6 +40,10 @@ static size_t lay_out(const Model *model, State *state)
     state->x = take(base, &used, (3 * nodes + 1) * sizeof *state->x);
     state->v = take(base, &used, (3 * nodes + 1) * sizeof *state->v);
     state->history = take(base, &used, model->history_size * sizeof *state->history);
+    const size_t accounts = model->has_accounts ? ACCOUNT_SIZE * (size_t)model->padded_count : 0;
+    state->account = take(base, &used, accounts * sizeof *state->account);
+    state->chunk_energy = take(base, &used, (size_t)model->chunk_count * sizeof *state->chunk_energy);
+    state->accounts_open = take(base, &used, (size_t)model->chunk_count * sizeof *state->accounts_open);
     state->gas = take(base, &used, (size_t)model->airbag_count * sizeof *state->gas);
     state->part_energy = take(base, &used, (size_t)model->part_count * sizeof *state->part_energy);
     state->part_hourglass = take(base, &used, (size_t)model->part_count * sizeof *state->part_hourglass);

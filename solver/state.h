@@ -59,11 +59,14 @@ typedef struct State {
     size_t size;           /* bytes */
     Clock *clock;
     Energies *energy;
-    double *x;           /* current position (node_count x 3) [L], written by the node pass */
-    double *v;           /* velocity at the half step (node_count x 3) [L/T], written by the node pass */
-    double *history;     /* element histories, layout per group (elements/membrane.h) */
-    GasState *gas;       /* (airbag_count), airbag/gas.h */
-    double *part_energy; /* internal energy of each part by the stress-work ledger (part_count) */
+    double *x;       /* current position (node_count x 3) [L], written by the node pass */
+    double *v;       /* velocity at the half step (node_count x 3) [L/T], written by the node pass */
+    double *history; /* element histories, layout per group (elements/membrane.h) */
+    double *account; /* accounts of elements (padded count x ACCOUNT_SIZE, by blocks of lanes); Model.has_accounts */
+    double *chunk_energy;         /* work of the chunk's stress so far, where accounts watch it (chunk count) */
+    unsigned char *accounts_open; /* (chunk count): solver/step_accounts.c */
+    GasState *gas;                /* (airbag_count), airbag/gas.h */
+    double *part_energy;          /* internal energy of each part by the stress-work ledger (part_count) */
     double *part_hourglass;
     double *group_energy;      /* energy stored in each group at the last cycle (group_count) */
     double *cap_volume;        /* under the caps of each bag at the last cycle (airbag_count) [L3] */

@@ -10,6 +10,7 @@
 
 #include "elements/membrane.h"
 #include "solver/memory.h"
+#include "solver/step_accounts.h"
 #include "solver/step_erosion.h"
 #include "solver/step_ties.h"
 #include "solver/team.h"
@@ -52,6 +53,7 @@ static void run_chunk(Workspace *w, int number, int chunk)
                          .history = w->state->history,
                          .rows = w->rows,
                          .restart_ledger = w->state->clock->cycle == 0};
+    step_accounts_use(w, chunk, &input);
     w->chunks[chunk] = (ChunkSums){0};
     if (group->has_reference && step_reference_changes(w, number))
         input.rows = NULL;

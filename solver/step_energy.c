@@ -92,12 +92,14 @@ void step_close_energies(Workspace *w)
     if (w->plan.implicit_gas && cycle + BILLOW_SETTLING_CYCLES <= BILLOW_SETTLING_LIMIT)
         e->judged_from = cycle + BILLOW_SETTLING_CYCLES;
     if (cycle < e->judged_from) return;
-    e->ratio = given != 0.0 ? held / given : 1.0;
+    /* Sudden velocity changes part the two kinetic energies for a cycle or two; a lost balance shows in both and stays
+     * (eq. L7). */
+    const double with_steps = held - e->kinetic + t.kinetic_steps,
+                 nearer = fabs(held - given) <= fabs(with_steps - given) ? held : with_steps;
+    e->ratio = given != 0.0 ? nearer / given : 1.0;
     e->ratio_min = e->ratio < e->ratio_min ? e->ratio : e->ratio_min;
     e->ratio_max = e->ratio > e->ratio_max ? e->ratio : e->ratio_max;
-    /* Sudden velocity changes part the two kinetic energies for a cycle or two; a lost balance shows in both and
-     * stays. */
-    double error = fmin(fabs(held - given), fabs(held - e->kinetic + t.kinetic_steps - given));
+    double error = fabs(nearer - given);
     bool beyond = error > m->energy_error_limit * e->largest && e->largest > 0.0;
     judge_fabric(w);
     e->lost_cycles = beyond ? e->lost_cycles + 1 : 0;

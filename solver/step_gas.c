@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "solver/step_accounts.h"
 #include "solver/step_erosion.h"
 #include "solver/step_links.h"
 #include "solver/workspace.h"
@@ -182,6 +183,7 @@ void step_gas(Workspace *w)
     w->plan.time = clock->time;
     w->plan.dt_before = clock->step;
     double rate = sum_chunks(w);
+    if (m->has_accounts) step_accounts_sum(w);
     if (step_bags(w)) return;
     if (m->has_erosion) step_erosion_close(w);
     if (m->sensor_count > 0) step_sensors(w);
