@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "contact/contact_erosion.h"
 #include "contact/contact_law.h"
 #include "contact/entity_loop.h"
 
@@ -97,7 +98,9 @@ static void set_thinness(ContactLoop *loop)
 void contact_prepare(ContactLoop *loop, double time, double before, double next, int thread, Team *team)
 {
     double longer = before > next ? before : next;
-    bool due = loop->search_due;
+    /* what thread 0 writes of this, it writes after the barriers of the search */
+    bool eroded = loop->model->has_erosion && *loop->state->eroded_count != loop->eroded_seen;
+    bool due = loop->search_due || eroded;
     if (loop->entities) entities_look(loop, time, before, next, thread, team_size(team));
     if (thread == 0) {
         loop->step = (ContactStep){.time = time, .before = before, .next = next, .longer = longer};
@@ -106,11 +109,13 @@ void contact_prepare(ContactLoop *loop, double time, double before, double next,
             loop->state->contact->skin = choose_skin(loop);
             memcpy(loop->state->contact_searched, loop->state->x, 3 * (size_t)loop->model->node_count * sizeof(double));
         }
+        if (eroded) contact_erode(loop);
     }
     if (!due) return;
     contact_search(loop, thread, team);
     if (thread != 0) return;
     loop->search_due = false;
+    if (eroded) loop->eroded_seen = *loop->state->eroded_count;
     loop->state->contact->started = 1;
 }
 
@@ -219,8 +224,9 @@ static void share_blocked(ContactLoop *loop, int thread, int threads)
     for (int e = (int)(count * thread / threads), end = (int)(count * (thread + 1) / threads); e < end; e++) {
         const int32_t *node = m->element_node + 4 * (ptrdiff_t)e;
         int corners = node[3] == node[2] ? 3 : 4, touching = 0;
+        if (m->has_erosion && loop->state->eroded[m->element_slot[e]]) corners = 0;
         for (int k = 0; k < corners; k++) touching += loop->corner[CONTACT_ROW * (ptrdiff_t)node[k] + 3] > 0.0;
-        loop->state->contact_share[e] = (double)touching / corners;
+        loop->state->contact_share[e] = corners ? (double)touching / corners : 0.0;
     }
 }
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "contact/contact_erosion.h"
 #include "contact/contact_grid.h"
 #include "contact/contact_loop.h"
 #include "contact/contact_patches.h"
@@ -55,6 +56,7 @@ void contact_free(ContactLoop *loop)
         contact_groups_free(&loop->runs[i].nodes);
         contact_groups_free(&loop->runs[i].triangles);
         contact_groups_free(&loop->runs[i].lines);
+        contact_living_free(&loop->runs[i]);
         memory_free(loop->runs[i].plane);
         memory_free(loop->runs[i].line_body);
         memory_free(loop->runs[i].line_shell);
@@ -75,6 +77,7 @@ void contact_free(ContactLoop *loop)
     memory_free(loop->room);
     memory_free(loop->around);
     memory_free(loop->pulled);
+    memory_free(loop->mark);
     memory_free(loop->runs);
     memory_free(loop->resultant);
     memory_free(loop->motions);
@@ -164,22 +167,27 @@ static int group_nodes(ContactGroups *groups, const ContactInterface *c, const C
     return status;
 }
 
-static int groups_create(ContactRun *run, int nodes)
+void contact_items(ContactRun *run, ContactItems items[3])
 {
     const ContactInterface *c = run->contact;
-    const ContactItems node = {c->node_count, 1, c->node, c->node_side, c->node_body, c->node_radius, NULL, NULL},
-                       triangle = {c->triangle_count, 3,
-                                   c->triangle,       c->triangle_side,
-                                   c->triangle_body,  c->triangle_radius,
-                                   c->triangle_shell, c->triangle_fourth},
-                       line = {c->edge_count,   2,   c->edge, c->edge_side, run->line_body, c->edge_radius,
-                               run->line_shell, NULL};
+    items[0] = (ContactItems){c->node_count, 1, c->node, c->node_side, c->node_body, c->node_radius, NULL, NULL};
+    items[1] = (ContactItems){
+        c->triangle_count, 3, c->triangle, c->triangle_side, c->triangle_body, c->triangle_radius, c->triangle_shell,
+        c->triangle_fourth};
+    items[2] =
+        (ContactItems){c->edge_count, 2, c->edge, c->edge_side, run->line_body, c->edge_radius, run->line_shell, NULL};
     for (int e = 0; e < c->edge_count; e++) {
         run->line_body[e] = c->triangle_body[c->edge_triangle[2 * e]];
         run->line_shell[e] = c->triangle_shell[c->edge_triangle[2 * e]];
     }
-    if (group_nodes(&run->nodes, c, &node, nodes) || group_items(&run->triangles, &triangle, nodes) ||
-        group_items(&run->lines, &line, nodes))
+}
+
+static int groups_create(ContactRun *run, int nodes)
+{
+    ContactItems items[3];
+    contact_items(run, items);
+    if (group_nodes(&run->nodes, run->contact, &items[0], nodes) || group_items(&run->triangles, &items[1], nodes) ||
+        group_items(&run->lines, &items[2], nodes))
         return -1;
     for (int k = 0; k < run->lines.count * CONTACT_GROUP; k++) {
         int32_t e = run->lines.lanes[k / CONTACT_GROUP].item[k % CONTACT_GROUP];
@@ -194,6 +202,7 @@ static int run_create(ContactLoop *loop, int i)
     const ContactInterface *c = &loop->model->contacts[i];
     size_t triangles = (size_t)c->triangle_count + 1;
     run->contact = c;
+    if (loop->model->has_erosion && contact_living_create(run, c, loop->model->node_count)) return -1;
     run->force = loop->resultant + 3 * (ptrdiff_t)i;
     run->plane = memory_alloc(4 * triangles, sizeof(double));
     run->line_body = memory_alloc((size_t)c->edge_count + 1, sizeof *run->line_body);
@@ -238,6 +247,12 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
                      ? 0
                      : -1;
     for (int i = 0; !status && i < model->contact_count; i++) status = run_create(loop, i);
+    if (model->has_erosion) {
+        loop->mark = memory_alloc((size_t)model->node_count + 1, 1);
+        if (!loop->mark) status = -1;
+        if (!status && *state->eroded_count > 0) contact_erode(loop);
+        loop->eroded_seen = *state->eroded_count;
+    }
     if (!status && state->contact->started) {
         loop->restored = true;
         contact_search(loop, 0, NULL);

@@ -126,7 +126,9 @@ static inline void contact_count_held(ContactList *list, int owner)
 
 /* One interface in the loop. */
 typedef struct ContactRun {
-    const ContactInterface *contact;
+    const ContactInterface *contact; /* the model's, or living */
+    ContactInterface living;         /* what erosion has left of it, if erodes (contact/contact_erosion.c) */
+    bool erodes;
     ContactList faces, edges;
     ContactGroups nodes, triangles, lines; /* owners of faces, triangles, and edges */
     int32_t *line_body, *line_shell;       /* of the first triangle at each edge (edge_count) */
@@ -171,6 +173,8 @@ typedef struct ContactLoop {
     double fastest;         /* largest speed now */
     double power, power_after;
     bool search_due, pending;
+    int64_t eroded_seen; /* shells that had eroded when the surfaces were last made; only if Model.has_erosion */
+    unsigned char *mark; /* workspace of contact_erode (node_count); NULL without erosion */
     ContactStep step;
     ContactGrid grid;
     ContactBox *box;    /* workspace of the search */
@@ -213,6 +217,9 @@ void contact_search(ContactLoop *loop, int thread, Team *team);
 
 /* Fills room; elements, rest: (w dt)^2 that elements may have, and that they leave in their plane. */
 void contact_fill_room(ContactLoop *loop, const double *x, double elements, double rest);
+
+/* Nodes, triangles and edges of the run's surface as items of groups. */
+void contact_items(ContactRun *run, ContactItems items[3]);
 
 /* 1 for nodes with supports that follow no body, edge or partner (moving - free count); NULL without memory. */
 unsigned char *contact_list_pulled(const Model *model);

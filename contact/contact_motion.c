@@ -81,6 +81,16 @@ int contact_groups_create(ContactGroups *groups, const ContactItems *items, cons
     return 0;
 }
 
+void contact_groups_renew(ContactGroups *groups, const ContactItems *items)
+{
+    for (int g = 0; g < groups->count; g++) {
+        ContactLanes *lanes = &groups->lanes[g];
+        groups->side[g] = 0;
+        for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) fill_lane(lanes, items, k, lanes->item[k]);
+        describe(groups, items, g);
+    }
+}
+
 static void find_velocities(ContactGroups *groups, const double *v, int g)
 {
     ContactBox box;

@@ -85,6 +85,9 @@ typedef struct ContactGroups {
 /* Groups of items in an order by contact_patches. 0, or -1 without memory. */
 int contact_groups_create(ContactGroups *groups, const ContactItems *items, const int32_t *order);
 
+/* What the items are is new, but not which there are nor their nodes. */
+void contact_groups_renew(ContactGroups *groups, const ContactItems *items);
+
 /* At a search: boxes of the groups [first, end) at positions x, their velocities; none is watched yet. */
 void contact_groups_place(ContactGroups *groups, const double *x, const double *v, int first, int end);
 

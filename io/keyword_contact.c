@@ -228,7 +228,7 @@ static const FieldSpec control1_fields[] = {
     CARD_REAL_OR("SLSFAC", slsfac, 0.1, USED, NONE), CARD_REAL("RWPNAL", rwpnal, LISTED, NONE),
     CARD_INT_OR("ISLCHK", islchk, 1, LISTED, NONE),  CARD_INT("SHLTHK", shlthk, USED, NONE),
     CARD_INT_OR("PENOPT", penopt, 1, LISTED, NONE),  CARD_INT("THKCHG", thkchg, LISTED, NONE),
-    CARD_INT_OR("ORIEN", orien, 1, LISTED, NONE),    CARD_INT("ENMASS", enmass, LISTED, NONE),
+    CARD_INT_OR("ORIEN", orien, 1, LISTED, NONE),    CARD_INT("ENMASS", enmass, USED, NONE),
 };
 #undef AT
 static const FieldSpec control2_fields[] = {
@@ -321,7 +321,8 @@ static const KeywordSpec specs[] = {
      .cards = control_cards,
      .card_count = (int)(sizeof control_cards / sizeof *control_cards),
      .read = read_control_contact,
-     .remark = "SLSFAC scales the penalty of contacts with SOFT = 0; SHLTHK and IGNORE are defaults of the contacts."},
+     .remark = "SLSFAC scales the penalty of contacts with SOFT = 0; SHLTHK and IGNORE are defaults of the contacts. "
+               "ENMASS = 2: nodes whose shells have all eroded stay in contact."},
 };
 
 const KeywordFamily keyword_family_contact = {"Contact", specs, (int)(sizeof specs / sizeof *specs)};

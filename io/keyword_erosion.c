@@ -149,7 +149,7 @@ static const KeywordSpec specs[] = {
          "models and card 4 are refused. For *MAT_FABRIC, *MAT_ELASTIC, *MAT_ORTHOTROPIC_ELASTIC and rubber. Their "
          "mass "
          "stays at the nodes, their energy counts as internal; a hole leaks only with VNTOPT 2 or 10. "
-         "Contact goes on seeing them."},
+         "Contact leaves them out, and nodes without other shells unless ENMASS = 2 in *CONTROL_CONTACT."},
 };
 
 const KeywordFamily keyword_family_erosion = {"Erosion", specs, (int)(sizeof specs / sizeof *specs)};

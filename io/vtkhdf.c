@@ -258,8 +258,8 @@ static int write_cell_data(VtkHdf *grid, const Model *model, const State *state,
                 strain[6 * (ptrdiff_t)e + c] = (float)result.strain[c];
             }
             thickness[e] = (float)result.thickness;
-            share[e] = contact_share(model, contact, first + e);
             eroded[e] = model->has_erosion && state->eroded[model->element_slot[first + e]] ? 1.0f : 0.0f;
+            share[e] = eroded[e] > 0.0f ? 0.0f : contact_share(model, contact, first + e);
         }
         if (write_piece(grid, DATA_STRESS, first, count, stress) ||
             write_piece(grid, DATA_STRAIN, first, count, strain) ||

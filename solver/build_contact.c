@@ -316,6 +316,7 @@ int build_contacts(Builder *b)
     size_t count = d->contacts.count;
     if (count == 0) return 0;
     m->contact_count = (int)count;
+    m->eroded_nodes_stay = d->control.contact.given && d->control.contact.enmass == 2;
     m->contacts = builder_alloc(b, count, sizeof *m->contacts);
     b->contacts = memory_alloc(count, sizeof *b->contacts);
     FacetMap map = {0};

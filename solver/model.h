@@ -173,6 +173,7 @@ typedef struct Model {
     bool has_reference;        /* some group has a reference geometry */
     bool has_accounts;         /* some group's stress may feed the motion: State.account is there */
     bool has_erosion;          /* some group has criteria: State.eroded is there */
+    bool eroded_nodes_stay;    /* ENMASS = 2: in contact, nodes whose shells are all gone */
     bool liner_waits;          /* of some group: State.reached is there */
 
     int solid_count;
