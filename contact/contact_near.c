@@ -31,6 +31,7 @@ void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group
         double thickness = own->radius[group] + all->radius[pair->other];
         part->look.x = loop->state->x;
         part->look.depth = list->depth;
+        part->look.deepest = deepest;
         part->look.owners = &own->lanes[group];
         part->look.others = &all->lanes[pair->other];
         part->look.reach = thickness + step;

@@ -1,12 +1,16 @@
 /* Distances of the pairs of two groups from below, in single precision with a margin. Compiled once per instruction
- * set, with BILLOW_NEAR_TABLE naming its table; loops over lanes are left to the compiler. Results of a run do not
- * depend on what is found here beyond the pairs that touch (docs/theory.md, Search). */
+ * set, with BILLOW_NEAR_TABLE naming its table. Results of a run do not depend on what is found here beyond the pairs
+ * that touch (docs/theory.md, Search). */
 #include "contact/near_kernels.h"
 
 #include <float.h>
 #include <math.h>
 
+#include "contact/near_lanes.h"
+
 enum { LANES = CONTACT_GROUP };
+
+#define ALL_LANES ((1u << LANES) - 1u)
 
 /* What rounding may take off a distance, as a share of the coordinates. */
 #define MARGIN 2e-5
@@ -14,43 +18,38 @@ enum { LANES = CONTACT_GROUP };
 /* Triangles with an angle of a smaller sine squared at their first corner have no bound: they count as near. */
 #define THIN 1e-3f
 
-/* The triangles of one group, from an origin of their own. */
-typedef struct TriangleLanes {
-    float corner[3][LANES], a[3][LANES], b[3][LANES], normal[3][LANES];
-    float aa[LANES], ab[LANES], bb[LANES], inverse[LANES];
-    float over[3][LANES]; /* altitude squared on the edge opposite to each corner */
-} TriangleLanes;
+#define FOR_LANES(r) for (int r = 0; r < LANES; r += NEAR_WIDTH)
 
 /* A box around what a group is made of. */
 typedef struct LaneBox {
     float low[3], high[3];
 } LaneBox;
 
+/* The triangles of one group, from an origin of their own. */
+typedef struct TriangleLanes {
+    LaneArray corner[3], a[3], b[3], normal[3];
+    LaneArray aa, ab, bb, inverse;
+    LaneArray over[3]; /* altitude squared on the edge opposite to each corner */
+    LaneBox box;
+} TriangleLanes;
+
+/* The edges of one group, from an origin of their own. */
+typedef struct EdgeLanes {
+    LaneArray start[3], along[3], low[3], high[3], square, inverse;
+    LaneBox box;
+} EdgeLanes;
+
+/* Owners against one group: what they have found. */
+typedef struct Search {
+    LaneArray off;             /* squared distance of each owner from the group's box */
+    LaneArray limit;           /* squared distance within which pairs are found, -1 none */
+    unsigned meets_a, meets_b; /* others that owners of side A, of side B may meet */
+    float best;                /* least squared distance so far */
+} Search;
+
 static float larger(float a, float b)
 {
     return a > b ? a : b;
-}
-
-static float smaller(float a, float b)
-{
-    return a < b ? a : b;
-}
-
-/* Component i of nodes lane by lane, from an origin. */
-static void load_component(const double *x, const int32_t *node, int i, double origin, float *restrict to)
-{
-    for (int k = 0; k < LANES; k++) to[k] = (float)(x[3 * (ptrdiff_t)node[k] + i] - origin);
-}
-
-static void box_add(LaneBox *box, int i, const float *value)
-{
-    float low = value[0], high = value[0];
-    for (int k = 1; k < LANES; k++) {
-        low = smaller(value[k], low);
-        high = larger(value[k], high);
-    }
-    box->low[i] = smaller(low, box->low[i]);
-    box->high[i] = larger(high, box->high[i]);
 }
 
 static float box_extent(const LaneBox *box)
@@ -60,231 +59,289 @@ static float box_extent(const LaneBox *box)
     return extent;
 }
 
-static const LaneBox nowhere = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
-
-/* Squared distance of the box from the box low to high. */
-static float box_distance(const LaneBox *box, const float low[3], const float high[3])
+/* Squared distances of the boxes low to high from a box. */
+static void box_distances(const LaneBox *box, const LaneArray *low, const LaneArray *high, LaneArray *square)
 {
-    float square = 0.0f;
-    for (int i = 0; i < 3; i++) {
-        float gap = larger(larger(low[i] - box->high[i], box->low[i] - high[i]), 0.0f);
-        square += gap * gap;
+    FOR_LANES(r)
+    {
+        Lanes sum = lanes_of(0.0f);
+        for (int i = 0; i < 3; i++) {
+            Lanes gap = lanes_larger(lanes_load(&low[i], r) - box->high[i], box->low[i] - lanes_load(&high[i], r));
+            gap = lanes_larger(gap, lanes_of(0.0f));
+            sum += gap * gap;
+        }
+        lanes_store(square, r, sum);
     }
-    return square;
 }
 
-static void load_triangles(const ContactLook *look, const double *origin, TriangleLanes *t, LaneBox *box)
+static void load_triangles(const ContactLook *look, const double *origin, TriangleLanes *t)
 {
-    *box = nowhere;
+    const ContactLanes *lanes = look->others;
     for (int i = 0; i < 3; i++) {
-        float b[LANES], c[LANES];
-        load_component(look->x, look->others->node[0], i, origin[i], t->corner[i]);
-        load_component(look->x, look->others->node[1], i, origin[i], b);
-        load_component(look->x, look->others->node[2], i, origin[i], c);
-        box_add(box, i, t->corner[i]);
-        box_add(box, i, b);
-        box_add(box, i, c);
-        for (int k = 0; k < LANES; k++) t->a[i][k] = b[k] - t->corner[i][k];
-        for (int k = 0; k < LANES; k++) t->b[i][k] = c[k] - t->corner[i][k];
+        Lanes low = lanes_of(FLT_MAX), high = lanes_of(-FLT_MAX);
+        FOR_LANES(r)
+        {
+            Lanes p = lanes_gather(look->x + i, lanes->node[0] + r, origin[i]);
+            Lanes q = lanes_gather(look->x + i, lanes->node[1] + r, origin[i]);
+            Lanes s = lanes_gather(look->x + i, lanes->node[2] + r, origin[i]);
+            lanes_store(&t->corner[i], r, p);
+            lanes_store(&t->a[i], r, q - p);
+            lanes_store(&t->b[i], r, s - p);
+            low = lanes_smaller(lanes_smaller(p, q), lanes_smaller(s, low));
+            high = lanes_larger(lanes_larger(p, q), lanes_larger(s, high));
+        }
+        t->box.low[i] = lanes_least(low);
+        t->box.high[i] = lanes_largest(high);
     }
 }
 
 static void measure_triangles(TriangleLanes *t)
 {
-    for (int k = 0; k < LANES; k++) {
-        float ax = t->a[0][k], ay = t->a[1][k], az = t->a[2][k], bx = t->b[0][k], by = t->b[1][k], bz = t->b[2][k];
-        float aa = ax * ax + ay * ay + az * az, bb = bx * bx + by * by + bz * bz, ab = ax * bx + ay * by + az * bz;
-        float nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
-        float square = nx * nx + ny * ny + nz * nz, cc = aa - 2.0f * ab + bb;
-        float good = square > THIN * aa * bb ? 1.0f : 0.0f, safe = good > 0.0f ? square : 1.0f;
-        float inverse = good / safe, length = sqrtf(inverse);
-        t->aa[k] = aa, t->ab[k] = ab, t->bb[k] = bb, t->inverse[k] = inverse;
-        t->normal[0][k] = nx * length, t->normal[1][k] = ny * length, t->normal[2][k] = nz * length;
-        t->over[0][k] = good * safe / (good > 0.0f ? cc : 1.0f);
-        t->over[1][k] = good * safe / (good > 0.0f ? bb : 1.0f);
-        t->over[2][k] = good * safe / (good > 0.0f ? aa : 1.0f);
+    const Lanes zero = lanes_of(0.0f), one = lanes_of(1.0f);
+    FOR_LANES(r)
+    {
+        Lanes ax = lanes_load(&t->a[0], r), ay = lanes_load(&t->a[1], r), az = lanes_load(&t->a[2], r);
+        Lanes bx = lanes_load(&t->b[0], r), by = lanes_load(&t->b[1], r), bz = lanes_load(&t->b[2], r);
+        Lanes aa = ax * ax + ay * ay + az * az, bb = bx * bx + by * by + bz * bz, ab = ax * bx + ay * by + az * bz;
+        Lanes nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+        Lanes square = nx * nx + ny * ny + nz * nz, cc = aa - 2.0f * ab + bb;
+        unsigned thin = lanes_below(square, THIN * aa * bb);
+        Lanes safe = lanes_replace(square, thin, 1.0f), good = lanes_replace(one, thin, 0.0f);
+        Lanes inverse = good / safe, length = lanes_root(inverse);
+        lanes_store(&t->aa, r, aa), lanes_store(&t->ab, r, ab), lanes_store(&t->bb, r, bb);
+        lanes_store(&t->inverse, r, inverse);
+        lanes_store(&t->normal[0], r, nx * length);
+        lanes_store(&t->normal[1], r, ny * length);
+        lanes_store(&t->normal[2], r, nz * length);
+        lanes_store(&t->over[0], r, lanes_larger(good * safe / lanes_replace(cc, thin, 1.0f), zero));
+        lanes_store(&t->over[1], r, good * safe / lanes_replace(bb, thin, 1.0f));
+        lanes_store(&t->over[2], r, good * safe / lanes_replace(aa, thin, 1.0f));
     }
 }
 
-/* Squared distances of one point from the triangles, from below: height and way beyond an edge. */
-static void face_distances(const TriangleLanes *t, const float p[3], float *restrict square)
+/* Squared distances of one point from triangles, from below: height and way beyond an edge. */
+ALWAYS_INLINE Lanes face_distances(const TriangleLanes *t, const float p[3], int r)
 {
-    for (int k = 0; k < LANES; k++) {
-        float x = p[0] - t->corner[0][k], y = p[1] - t->corner[1][k], z = p[2] - t->corner[2][k];
-        float h = x * t->normal[0][k] + y * t->normal[1][k] + z * t->normal[2][k];
-        float ar = x * t->a[0][k] + y * t->a[1][k] + z * t->a[2][k];
-        float br = x * t->b[0][k] + y * t->b[1][k] + z * t->b[2][k];
-        float v = (t->bb[k] * ar - t->ab[k] * br) * t->inverse[k], w = (t->aa[k] * br - t->ab[k] * ar) * t->inverse[k];
-        float u = smaller(1.0f - v - w, 0.0f);
-        v = smaller(v, 0.0f), w = smaller(w, 0.0f);
-        float over = larger(u * u * t->over[0][k], larger(v * v * t->over[1][k], w * w * t->over[2][k]));
-        square[k] = h * h + over;
-    }
+    const Lanes zero = lanes_of(0.0f);
+    Lanes x = p[0] - lanes_load(&t->corner[0], r), y = p[1] - lanes_load(&t->corner[1], r),
+          z = p[2] - lanes_load(&t->corner[2], r);
+    Lanes h = x * lanes_load(&t->normal[0], r) + y * lanes_load(&t->normal[1], r) + z * lanes_load(&t->normal[2], r);
+    Lanes ar = x * lanes_load(&t->a[0], r) + y * lanes_load(&t->a[1], r) + z * lanes_load(&t->a[2], r);
+    Lanes br = x * lanes_load(&t->b[0], r) + y * lanes_load(&t->b[1], r) + z * lanes_load(&t->b[2], r);
+    Lanes ab = lanes_load(&t->ab, r), inverse = lanes_load(&t->inverse, r);
+    Lanes v = (lanes_load(&t->bb, r) * ar - ab * br) * inverse, w = (lanes_load(&t->aa, r) * br - ab * ar) * inverse;
+    Lanes u = lanes_smaller(1.0f - v - w, zero);
+    v = lanes_smaller(v, zero), w = lanes_smaller(w, zero);
+    Lanes over = lanes_larger(v * v * lanes_load(&t->over[1], r), w * w * lanes_load(&t->over[2], r));
+    return h * h + lanes_larger(u * u * lanes_load(&t->over[0], r), over);
 }
 
-/* Takes out pairs that never meet, keeps the least distance of each lane, tells whether one is within the limit. */
-static int sift_faces(const ContactLanes *t, const ContactLanes *owners, int i, float limit, float *restrict square,
-                      float *restrict least)
+/* Others by the sides that they may meet. */
+static void sort_sides(const ContactLanes *others, Search *search)
 {
-    int hit = 0;
-    int32_t node = owners->node[0][i], side = owners->side[i], body = owners->body[i];
-    for (int k = 0; k < LANES; k++) {
-        int swapped = ((t->side[k] & 1) << 1) | (t->side[k] >> 1);
-        int out = (t->node[0][k] == node) | (t->node[1][k] == node) | (t->node[2][k] == node) |
-                  (t->node[3][k] == node) | (t->body[k] == body) | ((swapped & side) == 0);
-        float s = out ? FLT_MAX : square[k];
-        square[k] = s;
-        least[k] = smaller(s, least[k]);
-        hit |= s <= limit;
-    }
-    return hit;
+    unsigned both = items_equal(others->side, CONTACT_SIDE_A | CONTACT_SIDE_B);
+    search->meets_a = both | items_equal(others->side, CONTACT_SIDE_B);
+    search->meets_b = both | items_equal(others->side, CONTACT_SIDE_A);
 }
 
-static void note(ContactLook *look, int lane, const float *square, float limit)
+static unsigned of_other_side(const Search *search, int32_t side)
 {
-    for (int k = 0; k < LANES; k++)
-        if (square[k] <= limit) look->found[look->count++] = (ContactNearby){lane, look->others->item[k]};
+    return (side & CONTACT_SIDE_A ? search->meets_a : 0) | (side & CONTACT_SIDE_B ? search->meets_b : 0);
 }
 
-static float least_of(const float *least)
+/* Lanes of the register from r on that are not in the set. */
+ALWAYS_INLINE unsigned lanes_out(unsigned set, int r)
 {
-    float square = FLT_MAX;
-    for (int k = 0; k < LANES; k++) square = smaller(least[k], square);
-    return square;
+    return ~set >> r & ((1u << NEAR_WIDTH) - 1u);
 }
 
-/* square: least of all pairs. */
+/* Squared distances of one owner: pairs that may meet lower the best one. */
+ALWAYS_INLINE void take_best(Search *search, const LaneArray *square)
+{
+    Lanes least = lanes_load(square, 0);
+    for (int r = NEAR_WIDTH; r < LANES; r += NEAR_WIDTH) least = lanes_smaller(least, lanes_load(square, r));
+    if (lanes_below(least, lanes_of(search->best))) search->best = lanes_least(least);
+}
+
+static void note(ContactLook *look, int lane, unsigned found)
+{
+    for (; found; found &= found - 1)
+        look->found[look->count++] = (ContactNearby){lane, look->others->item[__builtin_ctz(found)]};
+}
+
+/* The first owner of the set, which is not empty, that is nearest to the box. */
+static int nearest_of(const LaneArray *off, unsigned set)
+{
+    Lanes least = lanes_load(off, 0);
+    for (int r = NEAR_WIDTH; r < LANES; r += NEAR_WIDTH) least = lanes_smaller(least, lanes_load(off, r));
+    unsigned nearest = set & items_within(off, lanes_least(least));
+    return __builtin_ctz(nearest ? nearest : set);
+}
+
+/* Those of the owners left that may find something, or something nearer. */
+static unsigned worth_looking(const Search *search, unsigned left)
+{
+    return left & (items_within(&search->off, search->best) | items_below(&search->off, &search->limit));
+}
+
 static void finish(ContactLook *look, float square, double margin)
 {
     look->nearest = square < FLT_MAX ? sqrt((double)square) - margin : DBL_MAX;
 }
 
-static void near_faces(ContactLook *look)
+static void look_from_node(ContactLook *look, Search *search, const TriangleLanes *t, const LaneArray *point, int k)
 {
     const ContactLanes *owners = look->owners, *others = look->others;
-    const double *origin = look->x + 3 * (ptrdiff_t)others->node[0][0];
-    TriangleLanes lanes;
-    LaneBox box, own = nowhere;
-    float least[LANES], square[LANES], point[3][LANES], best = FLT_MAX;
-    load_triangles(look, origin, &lanes, &box);
-    measure_triangles(&lanes);
-    for (int k = 0; k < LANES; k++) least[k] = FLT_MAX;
-    for (int i = 0; i < 3; i++) {
-        load_component(look->x, owners->node[0], i, origin[i], point[i]);
-        box_add(&own, i, point[i]);
+    const float p[3] = {point[0].at[k], point[1].at[k], point[2].at[k]};
+    int32_t node = owners->node[0][k];
+    unsigned own = items_equal(others->node[0], node) | items_equal(others->node[1], node) |
+                   items_equal(others->node[2], node) | items_equal(others->node[3], node);
+    unsigned meets = of_other_side(search, owners->side[k]) & ~(own | items_equal(others->body, owners->body[k]));
+    LaneArray square;
+    FOR_LANES(r)
+    {
+        lanes_store(&square, r, lanes_replace(face_distances(t, p, r), lanes_out(meets, r), FLT_MAX));
     }
-    double margin = MARGIN * (double)larger(box_extent(&box), box_extent(&own));
+    note(look, k, meets & items_within(&square, search->limit.at[k]));
+    take_best(search, &square);
+}
+
+static void near_faces(ContactLook *look)
+{
+    const double *origin = look->x + 3 * (ptrdiff_t)look->others->node[0][0];
+    TriangleLanes t;
+    LaneArray point[3];
+    Search search = {.best = FLT_MAX};
+    Lanes extent = lanes_of(0.0f);
+    load_triangles(look, origin, &t);
+    measure_triangles(&t);
+    sort_sides(look->others, &search);
+    for (int i = 0; i < 3; i++) FOR_LANES(r)
+        {
+            Lanes p = lanes_gather(look->x + i, look->owners->node[0] + r, origin[i]);
+            extent = lanes_larger(extent, lanes_absolute(p));
+            lanes_store(&point[i], r, p);
+        }
+    double margin = MARGIN * (double)larger(box_extent(&t.box), lanes_largest(extent));
+    box_distances(&t.box, point, point, &search.off);
+    for (int k = 0; k < LANES; k++) {
+        double depth = look->deepest > 0.0 && look->owners->item[k] >= 0 ? look->depth[look->owners->item[k]] : 0.0;
+        double reach = look->reach + depth + margin;
+        search.limit.at[k] = reach > 0.0 ? (float)(reach * reach) : -1.0f;
+    }
     look->count = 0;
-    for (int k = 0; k < LANES && owners->item[k] >= 0; k++) {
-        const float p[3] = {point[0][k], point[1][k], point[2][k]};
-        double reach = look->reach + look->depth[owners->item[k]] + margin;
-        float limit = reach > 0.0 ? (float)(reach * reach) : -1.0f;
-        if (box_distance(&box, p, p) > larger(best, limit)) continue;
-        face_distances(&lanes, p, square);
-        if (sift_faces(others, owners, k, limit, square, least)) note(look, k, square, limit);
-        best = least_of(least);
+    unsigned left = ~items_equal(look->owners->item, -1) & ALL_LANES;
+    for (int k = nearest_of(&search.off, left); left; k = __builtin_ctz(left | 1u << LANES)) {
+        left &= ~(1u << k);
+        look_from_node(look, &search, &t, point, k);
+        left = worth_looking(&search, left);
     }
-    finish(look, best, margin);
+    finish(look, search.best, margin);
 }
 
-/* The edges of one group, from an origin of their own. */
-typedef struct EdgeLanes {
-    float start[3][LANES], end[3][LANES], along[3][LANES], square[LANES], inverse[LANES];
-} EdgeLanes;
-
-static void load_edges(const ContactLook *look, const ContactLanes *lanes, const double *origin, EdgeLanes *e,
-                       LaneBox *box)
+static void load_edges(const ContactLook *look, const ContactLanes *lanes, const double *origin, EdgeLanes *e)
 {
-    *box = nowhere;
     for (int i = 0; i < 3; i++) {
-        load_component(look->x, lanes->node[0], i, origin[i], e->start[i]);
-        load_component(look->x, lanes->node[1], i, origin[i], e->end[i]);
-        box_add(box, i, e->start[i]);
-        box_add(box, i, e->end[i]);
-        for (int k = 0; k < LANES; k++) e->along[i][k] = e->end[i][k] - e->start[i][k];
+        Lanes lowest = lanes_of(FLT_MAX), highest = lanes_of(-FLT_MAX);
+        FOR_LANES(r)
+        {
+            Lanes p = lanes_gather(look->x + i, lanes->node[0] + r, origin[i]);
+            Lanes q = lanes_gather(look->x + i, lanes->node[1] + r, origin[i]);
+            Lanes low = lanes_smaller(p, q), high = lanes_larger(p, q);
+            lanes_store(&e->start[i], r, p);
+            lanes_store(&e->along[i], r, q - p);
+            lanes_store(&e->low[i], r, low);
+            lanes_store(&e->high[i], r, high);
+            lowest = lanes_smaller(lowest, low);
+            highest = lanes_larger(highest, high);
+        }
+        e->box.low[i] = lanes_least(lowest);
+        e->box.high[i] = lanes_largest(highest);
     }
-    for (int k = 0; k < LANES; k++) {
-        float s = e->along[0][k] * e->along[0][k] + e->along[1][k] * e->along[1][k] + e->along[2][k] * e->along[2][k];
-        e->square[k] = s;
-        e->inverse[k] = s > 0.0f ? 1.0f / s : 0.0f;
-    }
-}
-
-/* Squared distances of edge i of e from the edges f, from below. A point of one edge is off the line of the other by no
- * less than the one edge is, and along that line beyond the other's ends by no less. */
-static void edge_distances(const EdgeLanes *e, int i, const EdgeLanes *f, float *restrict square)
-{
-    float ux = e->along[0][i], uy = e->along[1][i], uz = e->along[2][i], uu = e->square[i], iu = e->inverse[i];
-    float ax = e->start[0][i], ay = e->start[1][i], az = e->start[2][i];
-    for (int k = 0; k < LANES; k++) {
-        float x = ax - f->start[0][k], y = ay - f->start[1][k], z = az - f->start[2][k];
-        float wx = f->along[0][k], wy = f->along[1][k], wz = f->along[2][k], ww = f->square[k], iw = f->inverse[k];
-        float rr = x * x + y * y + z * z, ru = x * ux + y * uy + z * uz, rw = x * wx + y * wy + z * wz;
-        float uw = ux * wx + uy * wy + uz * wz;
-        /* f against the line of e */
-        float qq = ww - uw * uw * iu, q = rw - ru * uw * iu;
-        float t = smaller(larger(qq > 1e-6f * ww ? q / qq : 0.5f, 0.0f), 1.0f);
-        float off = rr - ru * ru * iu - 2.0f * t * q + t * t * qq;
-        float from = -ru * iu, to = from + uw * iu;
-        float beyond = larger(larger(smaller(from, to) - 1.0f, -larger(from, to)), 0.0f);
-        float one = larger(off, 0.0f) + beyond * beyond * uu;
-        /* e against the line of f */
-        qq = uu - uw * uw * iw, q = ru - rw * uw * iw;
-        t = smaller(larger(qq > 1e-6f * uu ? -q / qq : 0.5f, 0.0f), 1.0f);
-        off = rr - rw * rw * iw + 2.0f * t * q + t * t * qq;
-        from = rw * iw, to = from + uw * iw;
-        beyond = larger(larger(smaller(from, to) - 1.0f, -larger(from, to)), 0.0f);
-        float two = larger(off, 0.0f) + beyond * beyond * ww;
-        square[k] = larger(larger(one, two) - 2e-6f * (rr + uu + ww), 0.0f);
+    FOR_LANES(r)
+    {
+        Lanes x = lanes_load(&e->along[0], r), y = lanes_load(&e->along[1], r), z = lanes_load(&e->along[2], r);
+        Lanes square = x * x + y * y + z * z;
+        unsigned none = lanes_below(square, lanes_of(0.0f));
+        lanes_store(&e->square, r, square);
+        lanes_store(&e->inverse, r, lanes_replace(1.0f / lanes_replace(square, none, 1.0f), none, 0.0f));
     }
 }
 
-/* As sift_faces; within one group each pair is looked at once. Edges that are not sharp count for the least distance
- * only: they may be so after the next search. */
-static int sift_edges(const ContactLanes *e, int i, const ContactLanes *f, float limit, float *restrict square,
-                      float *restrict least)
+/* Squared distance of two edges, from below, by one of them: with r from the other's start to its start, u along the
+ * one, w along the other; products rr = r.r and so on. A point of the other is off the line of the one by no less, and
+ * along it beyond its ends by no less. */
+ALWAYS_INLINE Lanes off_the_line(Lanes rr, Lanes ru, Lanes rw, Lanes uw, Lanes uu, Lanes ww, Lanes inverse)
 {
-    int hit = 0;
-    int32_t a = e->node[0][i], b = e->node[1][i], side = e->side[i], body = e->body[i], shell = e->shell[i];
-    int32_t from = e == f ? e->item[i] : -1;
-    for (int k = 0; k < LANES; k++) {
-        int swapped = ((f->side[k] & 1) << 1) | (f->side[k] >> 1);
-        int out = (f->node[0][k] == a) | (f->node[1][k] == a) | (f->node[0][k] == b) | (f->node[1][k] == b) |
-                  (f->body[k] == body) | (f->shell[k] == shell) | ((swapped & side) == 0) | (f->item[k] <= from);
-        float s = out ? FLT_MAX : square[k];
-        least[k] = smaller(s, least[k]);
-        s = f->sharp[k] & e->sharp[i] ? s : FLT_MAX;
-        square[k] = s;
-        hit |= s <= limit;
+    const Lanes zero = lanes_of(0.0f), one = lanes_of(1.0f);
+    Lanes qq = ww - uw * uw * inverse, q = rw - ru * uw * inverse;
+    unsigned parallel = lanes_below(qq, 1e-6f * ww);
+    Lanes t = lanes_replace(q / lanes_replace(qq, parallel, 1.0f), parallel, 0.5f);
+    t = lanes_smaller(lanes_larger(t, zero), one);
+    Lanes off = rr - ru * ru * inverse - 2.0f * t * q + t * t * qq;
+    Lanes from = -ru * inverse, to = from + uw * inverse;
+    Lanes beyond = lanes_larger(lanes_larger(lanes_smaller(from, to) - 1.0f, -lanes_larger(from, to)), zero);
+    return lanes_larger(off, zero) + beyond * beyond * uu;
+}
+
+/* Squared distances of edge i of e from the edges f, from below. */
+ALWAYS_INLINE Lanes edge_distances(const EdgeLanes *e, int i, const EdgeLanes *f, int r)
+{
+    float ux = e->along[0].at[i], uy = e->along[1].at[i], uz = e->along[2].at[i];
+    Lanes uu = lanes_of(e->square.at[i]);
+    Lanes x = e->start[0].at[i] - lanes_load(&f->start[0], r), y = e->start[1].at[i] - lanes_load(&f->start[1], r),
+          z = e->start[2].at[i] - lanes_load(&f->start[2], r);
+    Lanes wx = lanes_load(&f->along[0], r), wy = lanes_load(&f->along[1], r), wz = lanes_load(&f->along[2], r);
+    Lanes ww = lanes_load(&f->square, r);
+    Lanes rr = x * x + y * y + z * z, ru = x * ux + y * uy + z * uz, rw = x * wx + y * wy + z * wz;
+    Lanes uw = ux * wx + uy * wy + uz * wz;
+    Lanes one = off_the_line(rr, ru, rw, uw, uu, ww, lanes_of(e->inverse.at[i]));
+    Lanes two = off_the_line(rr, -rw, -ru, uw, ww, uu, lanes_load(&f->inverse, r));
+    return lanes_larger(lanes_larger(one, two) - 2e-6f * (rr + uu + ww), lanes_of(0.0f));
+}
+
+/* Within one group each pair is looked at once. Edges that are not sharp count for the least distance only: they may be
+ * so after the next search. */
+static void look_from_edge(ContactLook *look, Search *search, const EdgeLanes *e, const EdgeLanes *f, int k)
+{
+    const ContactLanes *owners = look->owners, *others = look->others;
+    int32_t a = owners->node[0][k], b = owners->node[1][k];
+    unsigned common = items_equal(others->node[0], a) | items_equal(others->node[1], a) |
+                      items_equal(others->node[0], b) | items_equal(others->node[1], b);
+    common |= items_equal(others->body, owners->body[k]) | items_equal(others->shell, owners->shell[k]);
+    if (owners == others) common |= (2u << k) - 1u;
+    unsigned meets = of_other_side(search, owners->side[k]) & ~common;
+    LaneArray square;
+    FOR_LANES(r)
+    {
+        lanes_store(&square, r, lanes_replace(edge_distances(e, k, f, r), lanes_out(meets, r), FLT_MAX));
     }
-    return hit;
+    take_best(search, &square);
+    if (!owners->sharp[k]) return;
+    note(look, k, meets & ~items_equal(others->sharp, 0) & items_within(&square, search->limit.at[k]));
 }
 
 static void near_edges(ContactLook *look)
 {
     const double *origin = look->x + 3 * (ptrdiff_t)look->others->node[0][0];
-    EdgeLanes owners, others;
-    LaneBox own, box;
-    float least[LANES], square[LANES], best = FLT_MAX;
-    load_edges(look, look->owners, origin, &owners, &own);
-    load_edges(look, look->others, origin, &others, &box);
-    double margin = MARGIN * (double)larger(box_extent(&box), box_extent(&own)), reach = look->reach + margin;
-    float limit = reach > 0.0 ? (float)(reach * reach) : -1.0f;
-    for (int k = 0; k < LANES; k++) least[k] = FLT_MAX;
+    EdgeLanes own, other;
+    const EdgeLanes *others = look->owners == look->others ? &own : &other;
+    Search search = {.best = FLT_MAX};
+    load_edges(look, look->owners, origin, &own);
+    if (others == &other) load_edges(look, look->others, origin, &other);
+    sort_sides(look->others, &search);
+    double margin = MARGIN * (double)larger(box_extent(&others->box), box_extent(&own.box));
+    double reach = look->reach + margin;
+    box_distances(&others->box, own.low, own.high, &search.off);
+    for (int k = 0; k < LANES; k++) search.limit.at[k] = reach > 0.0 ? (float)(reach * reach) : -1.0f;
     look->count = 0;
-    for (int k = 0; k < LANES; k++) {
-        float low[3], high[3];
-        if (look->owners->side[k] == 0) continue;
-        for (int i = 0; i < 3; i++) {
-            low[i] = smaller(owners.start[i][k], owners.end[i][k]);
-            high[i] = larger(owners.start[i][k], owners.end[i][k]);
-        }
-        if (box_distance(&box, low, high) > larger(best, limit)) continue;
-        edge_distances(&owners, k, &others, square);
-        if (sift_edges(look->owners, k, look->others, limit, square, least)) note(look, k, square, limit);
-        best = least_of(least);
+    unsigned left = ~items_equal(look->owners->item, -1) & ALL_LANES;
+    for (int k = nearest_of(&search.off, left); left; k = __builtin_ctz(left | 1u << LANES)) {
+        left &= ~(1u << k);
+        look_from_edge(look, &search, &own, others, k);
+        left = worth_looking(&search, left);
     }
-    finish(look, best, margin);
+    finish(look, search.best, margin);
 }
 
 const NearKernels BILLOW_NEAR_TABLE = {.faces = near_faces, .edges = near_edges};

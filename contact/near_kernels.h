@@ -14,6 +14,7 @@ typedef struct ContactLook {
     const ContactLanes *owners, *others;
     const double *x;     /* positions now */
     const double *depth; /* how much farther each node looks (node_count) [L] */
+    double deepest;      /* the largest depth of the owners; for edges 0 [L] */
     double reach;        /* pairs nearer than this are found [L] */
     int count;           /* of pairs found */
     double nearest;      /* no pair of them is nearer; DBL_MAX without a pair that may meet */
