@@ -6,6 +6,7 @@
 #include "contact/contact_erosion.h"
 #include "contact/contact_law.h"
 #include "contact/entity_loop.h"
+#include "solver/memory.h"
 
 /* Steps at the largest speed that a search shall last. */
 #define SKIN_STEPS 24.0
@@ -103,6 +104,7 @@ void contact_prepare(ContactLoop *loop, double time, double before, double next,
     bool due = loop->search_due || eroded;
     if (loop->entities) entities_look(loop, time, before, next, thread, team_size(team));
     if (thread == 0) {
+        loop->cycle++;
         loop->step = (ContactStep){.time = time, .before = before, .next = next, .longer = longer};
         set_thinness(loop);
         if (due) {
@@ -119,7 +121,7 @@ void contact_prepare(ContactLoop *loop, double time, double before, double next,
     loop->state->contact->started = 1;
 }
 
-static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run)
+static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run, int thread)
 {
     const ContactInterface *c = run->contact;
     return (ContactLaw){.model = loop->model,
@@ -127,6 +129,8 @@ static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run)
                         .pressure = loop->pressure,
                         .v = loop->state->v,
                         .inverse = loop->model->contact_inverse,
+                        .pull = loop->parts[thread].pull,
+                        .cycle = loop->cycle,
                         .room = loop->room,
                         .corner = loop->corner,
                         .pulled = loop->pulled,
@@ -153,7 +157,13 @@ static void sleep_list(ContactList *list)
 
 void contact_forces(ContactLoop *loop, int thread, int threads)
 {
-    loop->parts[thread].force_count = 0;
+    ContactPart *part = &loop->parts[thread];
+    part->force_count = 0;
+    if (!part->pull) part->pull = memory_alloc((size_t)loop->model->node_count, sizeof *part->pull);
+    if (!part->pull) {
+        part->failed = true;
+        return;
+    }
     for (int i = 0; i < loop->model->contact_count; i++) {
         ContactRun *run = &loop->runs[i];
         if (!run->alive) {
@@ -163,7 +173,7 @@ void contact_forces(ContactLoop *loop, int thread, int threads)
             continue;
         }
         if (thread == 0) run->asleep = false;
-        ContactLaw law = law_of(loop, run);
+        ContactLaw law = law_of(loop, run, thread);
         int faces = run->faces.group_count, all = faces + run->edges.group_count;
         /* groups in turn: neighbouring ones are busy alike */
         for (int g = thread; g < all; g += threads) {

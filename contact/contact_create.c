@@ -70,6 +70,7 @@ void contact_free(ContactLoop *loop)
         memory_free(loop->parts[k].force);
         memory_free(loop->parts[k].near);
         memory_free(loop->parts[k].other);
+        memory_free(loop->parts[k].pull);
         memory_free(loop->parts[k].found.item);
     }
     memory_free(loop->parts);

@@ -24,6 +24,8 @@
 typedef struct ContactLaw {
     const Model *model;
     const double *v, *inverse;
+    ContactPull *pull;           /* of this thread (node_count) */
+    int64_t cycle;               /* contact's count of cycles */
     const double *rows;          /* corner sums of the elements, elements/kernels.h (row_count x ROW_SIZE) */
     const double *pressure;      /* of each pressure set (pressure_set_count + 1) */
     const double *room;          /* by node, contact/contact_loop.h (node_count x 6) */
@@ -69,33 +71,38 @@ typedef struct ContactMasses {
     double stiff;     /* B, the least m R/S of them: k dt^2 must not be larger (eq. C4) */
 } ContactMasses;
 
-/* (w dt)^2 that contact in the direction d may add at a node (eq. C12). */
+/* One over the (w dt)^2 that contact in the direction d may add at a node (eq. C12). */
+static inline double contact_inverse_room(const double *h, const double *d)
+{
+    return h[0] * d[0] * d[0] + h[1] * d[1] * d[1] + h[2] * d[2] * d[2] +
+           2.0 * (h[3] * d[0] * d[1] + h[4] * d[1] * d[2] + h[5] * d[2] * d[0]);
+}
+
 static inline double contact_room(const double *h, const double *d)
 {
-    return 1.0 / (h[0] * d[0] * d[0] + h[1] * d[1] * d[1] + h[2] * d[2] * d[2] +
-                  2.0 * (h[3] * d[0] * d[1] + h[4] * d[1] * d[2] + h[5] * d[2] * d[0]));
+    return 1.0 / contact_inverse_room(h, d);
 }
 
 static inline ContactMasses contact_masses(const ContactLaw *law, const ContactTouch *t)
 {
     ContactMasses masses = {0};
-    double inverse = 0.0, worst = 0.0, stiff = INFINITY;
+    double inverse = 0.0, worst = 0.0, softest = 0.0; /* one over the effective mass, over M, over B */
     for (int i = 0; i < 4; i++)
         if (law->inverse[t->node[i]] > 0.0) masses.load += fabs(t->weight[i]);
     for (int i = 0; i < 4; i++) {
         double of_node = law->inverse[t->node[i]], share = fabs(t->weight[i]);
-        double own = masses.load * share, all = law->corner[CONTACT_ROW * (ptrdiff_t)t->node[i] + 3];
         if (share == 0.0 || of_node == 0.0) continue;
+        double own = masses.load * share, all = law->corner[CONTACT_ROW * (ptrdiff_t)t->node[i] + 3];
         inverse += share * share * of_node;
-        all = all > own ? all : own;
-        worst = all * of_node > worst ? all * of_node : worst;
-        double own_stiff = contact_room(law->room + 6 * (ptrdiff_t)t->node[i], t->direction) / (all * of_node);
-        stiff = own_stiff < stiff ? own_stiff : stiff;
+        double loaded = (all > own ? all : own) * of_node;
+        worst = loaded > worst ? loaded : worst;
+        double soft = loaded * contact_inverse_room(law->room + 6 * (ptrdiff_t)t->node[i], t->direction);
+        softest = soft > softest ? soft : softest;
     }
     if (!(inverse > 0.0)) return masses;
     masses.effective = 1.0 / inverse;
     masses.least = 1.0 / worst;
-    masses.stiff = stiff;
+    masses.stiff = 1.0 / softest;
     return masses;
 }
 
@@ -163,23 +170,18 @@ static inline void contact_stiffen(const ContactTouch *t, double stiffness, bool
     }
 }
 
-/* contact_pull of a special node: 0 but for those that supports alone make special. */
-double contact_pull_special(const ContactLaw *law, int32_t node, const double d[3]);
+/* Forms a node's acceleration by its elements and the gas (contact/contact_pull.c). */
+void contact_form_pull(const ContactLaw *law, int32_t node, double a[3]);
 
-/* Acceleration of a node by its elements and the gas. */
-static inline double contact_pull(const ContactLaw *law, int32_t node, const double d[3])
+/* The same, formed once a cycle. */
+static inline const double *contact_pull(const ContactLaw *law, int32_t node)
 {
-    const Model *m = law->model;
-    double sum = 0.0;
-    if (node >= m->free_count) return contact_pull_special(law, node, d);
-    for (int32_t k = m->node_row_start[node]; k < m->node_row_start[node + 1]; k++) {
-        int32_t row = m->node_row[k];
-        if (row >= m->contact_row) break;
-        const double *force = law->rows + ROW_SIZE * (ptrdiff_t)row;
-        sum += vector3_dot(force, d);
-        if (m->row_set[row] >= 0) sum += law->pressure[m->row_set[row]] * vector3_dot(force + ROW_AREA, d);
+    ContactPull *pull = &law->pull[node];
+    if (pull->cycle != law->cycle) {
+        contact_form_pull(law, node, pull->a);
+        pull->cycle = law->cycle;
     }
-    return sum * m->inverse_mass[node];
+    return pull->a;
 }
 
 /* Force that keeps the coming step from closing the gap (eq. C13): an impulse without rebound. It begins with that of
@@ -188,10 +190,13 @@ static inline double contact_limit(const ContactLaw *law, const ContactTouch *t,
                                    double normal_speed, double force, const ContactMemory *m)
 {
     double mean = 0.5 * (law->before + law->next), least = CONTACT_FLOOR * m->distance;
-    double slowest = t->gap > least ? (least - t->gap) / law->next : 0.0, pull = 0.0;
-    for (int i = 0; i < 4; i++)
-        if (t->weight[i] != 0.0) pull += t->weight[i] * contact_pull(law, t->node[i], t->direction);
-    double speed = normal_speed + (pull + (force + m->limit) / masses->effective) * mean;
+    double slowest = t->gap > least ? (least - t->gap) / law->next : 0.0, pull[3] = {0.0, 0.0, 0.0};
+    for (int i = 0; i < 4; i++) {
+        if (t->weight[i] == 0.0) continue;
+        const double *a = contact_pull(law, t->node[i]);
+        for (int k = 0; k < 3; k++) pull[k] += t->weight[i] * a[k];
+    }
+    double speed = normal_speed + (vector3_dot(pull, t->direction) + (force + m->limit) / masses->effective) * mean;
     double mass = masses->effective < masses->least || speed > slowest ? masses->effective : masses->least;
     double limit = m->limit + mass * (slowest - speed) / mean;
     return limit > 0.0 ? limit : 0.0;

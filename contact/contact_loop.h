@@ -145,6 +145,12 @@ typedef struct ContactStep {
     double longer;             /* the longer of the two steps */
 } ContactStep;
 
+/* Acceleration of a node by its elements and the gas. */
+typedef struct ContactPull {
+    double a[3];   /* [L/T^2] */
+    int64_t cycle; /* in which it was formed, ContactLoop.cycle */
+} ContactPull;
+
 /* What one thread finds and does: group pairs of its share in a search, forces of its groups in a cycle. */
 typedef struct ContactPart {
     ContactGroupPair *pair;
@@ -157,7 +163,8 @@ typedef struct ContactPart {
     int32_t *other; /* the same, of each owner in turn, with room for those in contact */
     size_t other_capacity;
     ContactLook look;
-    bool failed; /* no memory */
+    ContactPull *pull; /* what its pairs have asked for (node_count) */
+    bool failed;       /* no memory */
 } ContactPart;
 
 typedef struct ContactLoop {
@@ -175,6 +182,7 @@ typedef struct ContactLoop {
     bool search_due, pending;
     int64_t eroded_seen; /* shells that had eroded when the surfaces were last made; only if Model.has_erosion */
     unsigned char *mark; /* workspace of contact_erode (node_count); NULL without erosion */
+    int64_t cycle; /* counts contact_prepare */
     ContactStep step;
     ContactGrid grid;
     ContactBox *box;    /* workspace of the search */

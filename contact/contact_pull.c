@@ -34,11 +34,11 @@ unsigned char *contact_list_pulled(const Model *m)
     return pulled;
 }
 
-double contact_pull_special(const ContactLaw *law, int32_t node, const double d[3])
+/* Sum of the forces of elements and gas. */
+static void sum_forces(const ContactLaw *law, int32_t node, double sum[3])
 {
     const Model *m = law->model;
-    if (node >= m->moving_count || !law->pulled[node - m->free_count]) return 0.0;
-    double sum[3] = {0.0, 0.0, 0.0};
+    for (int i = 0; i < 3; i++) sum[i] = 0.0;
     for (int32_t k = m->node_row_start[node]; k < m->node_row_start[node + 1]; k++) {
         int32_t row = m->node_row[k];
         if (row >= m->contact_row) break;
@@ -46,8 +46,22 @@ double contact_pull_special(const ContactLaw *law, int32_t node, const double d[
         double pressure = m->row_set[row] >= 0 ? law->pressure[m->row_set[row]] : 0.0;
         for (int i = 0; i < 3; i++) sum[i] += force[i] + pressure * force[ROW_AREA + i];
     }
-    RateRows held = {0};
-    constraints_held(&m->constraints, node, law->time, &held);
-    rate_rows_apply(&held, sum);
-    return vector3_dot(sum, d) * m->inverse_mass[node];
+}
+
+/* 0 of special nodes but for those that supports alone make special. */
+void contact_form_pull(const ContactLaw *law, int32_t node, double a[3])
+{
+    const Model *m = law->model;
+    bool special = node >= m->free_count;
+    if (special && (node >= m->moving_count || !law->pulled[node - m->free_count])) {
+        a[0] = a[1] = a[2] = 0.0;
+        return;
+    }
+    sum_forces(law, node, a);
+    if (special) {
+        RateRows held = {0};
+        constraints_held(&m->constraints, node, law->time, &held);
+        rate_rows_apply(&held, a);
+    }
+    for (int i = 0; i < 3; i++) a[i] *= m->inverse_mass[node];
 }
