@@ -26,8 +26,8 @@ static void follow_groups(ContactLoop *loop, int thread, int threads)
         ContactGroups *all[3] = {&run->nodes, &run->triangles, &run->lines};
         for (int k = 0; k < 3; k++) {
             int64_t count = all[k]->count;
-            contact_groups_follow(all[k], loop->state->v, (int)(count * thread / threads),
-                                  (int)(count * (thread + 1) / threads));
+            loop->motion_kernels->follow(all[k], loop->state->v, (int)(count * thread / threads),
+                                         (int)(count * (thread + 1) / threads));
         }
     }
 }
@@ -240,28 +240,27 @@ static void share_blocked(ContactLoop *loop, int thread, int threads)
     }
 }
 
+/* Power of the contact forces on the velocities of a chunk of nodes. */
+static double power_of_chunk(const ContactLoop *loop, int chunk, int count)
+{
+    double sum = 0.0;
+    for (int n = chunk * CONTACT_NODE_CHUNK, end = n + count; n < end && loop->written[chunk]; n++)
+        sum += vector3_dot(loop->corner + CONTACT_ROW * (ptrdiff_t)n, loop->state->v + 3 * (ptrdiff_t)n);
+    return sum;
+}
+
 void contact_follow(ContactLoop *loop, int thread, int threads, double pending)
 {
     const double *x = loop->state->x, *v = loop->state->v, *from = loop->state->contact_searched;
     int first = (int)((int64_t)loop->motion_count * thread / threads),
         end = (int)((int64_t)loop->motion_count * (thread + 1) / threads);
     for (int c = first; c < end; c++) {
-        ContactMotion sum = {0};
-        int last = (c + 1) * CONTACT_NODE_CHUNK < loop->model->moving_count ? (c + 1) * CONTACT_NODE_CHUNK
-                                                                            : loop->model->moving_count;
-        for (int n = c * CONTACT_NODE_CHUNK; n < last; n++) {
-            const double *vn = v + 3 * (ptrdiff_t)n, *f = loop->corner + CONTACT_ROW * (ptrdiff_t)n;
-            double speed = 0.0, power = 0.0;
-            for (int k = 0; k < 3; k++) {
-                double d = x[3 * (ptrdiff_t)n + k] + pending * vn[k] - from[3 * (ptrdiff_t)n + k];
-                speed += vn[k] * vn[k];
-                contact_drift_add(&sum.drift, k, d, d);
-                power += f[k] * vn[k];
-            }
-            sum.power += power;
-            sum.fastest = speed > sum.fastest ? speed : sum.fastest;
-        }
-        loop->motions[c] = sum;
+        int from_node = c * CONTACT_NODE_CHUNK, left = loop->model->moving_count - from_node;
+        int count = left < CONTACT_NODE_CHUNK ? left : CONTACT_NODE_CHUNK;
+        ptrdiff_t at = 3 * (ptrdiff_t)from_node;
+        ContactMotion *motion = &loop->motions[c];
+        *motion = (ContactMotion){.power = power_of_chunk(loop, c, count)};
+        loop->motion_kernels->drift(motion, x + at, v + at, from + at, pending, count);
     }
     follow_groups(loop, thread, threads);
     if (loop->model->blockage) share_blocked(loop, thread, threads);
@@ -345,7 +344,8 @@ void contact_store(ContactLoop *loop)
         int count = 0, capacity = run->contact->memory_capacity;
         store_list(&run->faces, 0, to, capacity, &count);
         store_list(&run->edges, run->contact->node_count, to, capacity, &count);
-        memset(to + count, 0, (size_t)(capacity - count) * sizeof *to);
+        int before = loop->state->contact_memories[i]; /* what is beyond those is zero */
+        if (before > count) memset(to + count, 0, (size_t)(before - count) * sizeof *to);
         loop->state->contact_memories[i] = count;
     }
     for (int n = 0; n < loop->model->node_count; n++)

@@ -5,6 +5,7 @@
 #include "contact/contact_erosion.h"
 #include "contact/contact_grid.h"
 #include "contact/contact_loop.h"
+#include "contact/contact_pairs.h"
 #include "contact/contact_patches.h"
 #include "contact/entity_loop.h"
 #include "solver/memory.h"
@@ -39,9 +40,9 @@ static void list_free(ContactList *list)
     memory_free(list->depth);
     memory_free(list->deepest);
     memory_free(list->start);
-    memory_free(list->pair);
+    contact_pairs_free(&list->pairs);
     memory_free(list->next_start);
-    memory_free(list->next);
+    contact_pairs_free(&list->next);
     memory_free(list->pieces);
     memory_free(list->sums);
     memory_free(list->passages);
@@ -66,7 +67,7 @@ void contact_free(ContactLoop *loop)
     contact_grid_free(&loop->grid);
     memory_free(loop->box);
     for (int k = 0; loop->parts && k < BILLOW_MAX_THREADS; k++) {
-        memory_free(loop->parts[k].pair);
+        contact_pairs_free(&loop->parts[k].pairs);
         memory_free(loop->parts[k].force);
         memory_free(loop->parts[k].near);
         memory_free(loop->parts[k].other);
@@ -216,11 +217,12 @@ static int run_create(ContactLoop *loop, int i)
                : 0;
 }
 
-static const NearKernels *choose_kernels(void)
+static void choose_kernels(ContactLoop *loop)
 {
     const KernelTable *table = kernels_select(NULL);
     int level = table ? table->level : 2;
-    return level == 4 ? &near_kernels_v4 : level == 3 ? &near_kernels_v3 : &near_kernels_v2;
+    loop->kernels = level == 4 ? &near_kernels_v4 : level == 3 ? &near_kernels_v3 : &near_kernels_v2;
+    loop->motion_kernels = level == 4 ? &motion_kernels_v4 : level == 3 ? &motion_kernels_v3 : &motion_kernels_v2;
 }
 
 ContactLoop *contact_create(const Model *model, State *state, double *rows, const double *pressure)
@@ -229,7 +231,7 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     if (!loop) return NULL;
     loop->model = model;
     loop->state = state;
-    loop->kernels = choose_kernels();
+    choose_kernels(loop);
     loop->rows = rows;
     loop->pressure = pressure;
     loop->corner = rows + CONTACT_ROW * (ptrdiff_t)model->contact_row;

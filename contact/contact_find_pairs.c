@@ -81,9 +81,13 @@ static void place_groups(ContactLoop *loop, ContactRun *run, int thread, int thr
     const double *x = loop->state->contact_searched;
     ContactGroups *all[3] = {&run->nodes, &run->triangles, &run->lines};
     int triangles = run->contact->triangle_count;
-    for (int k = 0; k < 3; k++)
-        contact_groups_place(all[k], x, loop->state->v, contact_first_of(all[k]->count, thread, threads),
-                             contact_first_of(all[k]->count, thread + 1, threads));
+    for (int k = 0; k < 3; k++) {
+        int first = contact_first_of(all[k]->count, thread, threads),
+            end = contact_first_of(all[k]->count, thread + 1, threads);
+        contact_groups_place(all[k], x, first, end);
+        loop->motion_kernels->follow(all[k], loop->state->v, first, end);
+        contact_groups_unwatch(all[k], first, end);
+    }
     fill_planes(run, x, contact_first_of(triangles, thread, threads), contact_first_of(triangles, thread + 1, threads));
 }
 
@@ -123,7 +127,7 @@ static void find_groups(ContactLoop *loop, ContactList *list, const ContactGroup
             part->failed = contact_part_add(part, h, loop->restored ? -INFINITY : slack) != 0;
         }
         if (part->failed) return;
-        contact_pairs_remember(list, g, part->pair + first, part->pair_count - first);
+        contact_pairs_remember(list, g, part, first);
     }
 }
 
@@ -132,7 +136,7 @@ static void watch(const ContactList *list, ContactGroups *own, ContactGroups *al
 {
     for (int g = 0; g < list->group_count; g++)
         for (int32_t k = list->start[g]; k < list->start[g + 1]; k++)
-            own->watched[g] = all->watched[list->pair[k].other] = 1;
+            own->watched[g] = all->watched[list->pairs.other[k]] = 1;
 }
 
 static void wait_for(Team *team)

@@ -6,6 +6,7 @@
 
 #include "contact/contact_grid.h"
 #include "contact/contact_motion.h"
+#include "contact/motion_kernels.h"
 #include "contact/near_kernels.h"
 #include "elements/kernels.h"
 #include "solver/model.h"
@@ -55,11 +56,12 @@ typedef struct ContactSums {
     int32_t fast_node, lost_node;
 } ContactSums;
 
-/* Two groups that may meet: owners of one, others of the second. */
-typedef struct ContactGroupPair {
-    double slack; /* by so much they may yet come nearer before two of their items touch [L] */
-    int32_t other;
-} ContactGroupPair;
+/* Pairs of groups that may meet: owners of one, others of the second. */
+typedef struct ContactGroupPairs {
+    int32_t *other;
+    float *slack; /* by so much they may yet come nearer before two of their items touch [L] */
+    size_t other_capacity, slack_capacity;
+} ContactGroupPairs;
 
 /* Pairs of one kind and what becomes of them in a cycle. */
 typedef struct ContactList {
@@ -70,11 +72,10 @@ typedef struct ContactList {
     int32_t *partner; /* other item of each memory (owner_count x CONTACT_SLOTS) */
     double *depth;    /* how deep each node was behind a surface at its last look (owner_count) [L] */
     double *deepest;  /* of each group (group_count) [L] */
-    int32_t *start;   /* of each group in pair (group_count + 1) */
-    ContactGroupPair *pair; /* ascending (start[group_count]) */
-    int32_t *next_start;    /* workspace of the search: the new list */
-    ContactGroupPair *next;
-    size_t pair_capacity, next_capacity;
+    int32_t *start;   /* of each group in pairs (group_count + 1) */
+    ContactGroupPairs pairs; /* ascending (start[group_count]) */
+    int32_t *next_start;     /* workspace of the search: the new list */
+    ContactGroupPairs next;
     ContactPiece *pieces;      /* (group_count) */
     ContactSums *sums;         /* (group_count) */
     ContactPassages *passages; /* of edges (group_count) */
@@ -153,8 +154,8 @@ typedef struct ContactPull {
 
 /* What one thread finds and does: group pairs of its share in a search, forces of its groups in a cycle. */
 typedef struct ContactPart {
-    ContactGroupPair *pair;
-    size_t pair_count, pair_capacity;
+    ContactGroupPairs pairs;
+    size_t pair_count;
     ContactFound found;
     ContactForce *force;
     size_t force_count, force_capacity;
@@ -188,6 +189,7 @@ typedef struct ContactLoop {
     ContactBox *box;    /* workspace of the search */
     ContactPart *parts; /* by thread (BILLOW_MAX_THREADS) */
     const NearKernels *kernels;
+    const MotionKernels *motion_kernels;
     size_t box_capacity;
     double *room; /* at the last search: (w dt)^2 that contact may add at a node in direction d is 1/(d . room d); xx yy
                    * zz xy yz zx (node_count x 6) */

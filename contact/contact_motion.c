@@ -64,14 +64,16 @@ int contact_groups_create(ContactGroups *groups, const ContactItems *items, cons
     groups->lanes = memory_alloc(count, sizeof *groups->lanes);
     groups->start = memory_alloc(count, sizeof *groups->start);
     groups->node = memory_alloc((size_t)items->count * (size_t)items->corners + 1, sizeof *groups->node);
-    groups->velocity = memory_alloc(count, sizeof *groups->velocity);
+    groups->low[0] = memory_alloc(6 * count, sizeof *groups->low[0]);
+    for (int k = 1; k < 6 && groups->low[0]; k++)
+        *(k < 3 ? &groups->low[k] : &groups->high[k - 3]) = groups->low[0] + (size_t)k * count;
     groups->box = memory_alloc(count, sizeof *groups->box);
     groups->radius = memory_alloc(count, sizeof *groups->radius);
     groups->side = memory_alloc(count, 1);
     groups->body = memory_alloc(count, sizeof *groups->body);
     groups->idle = memory_alloc(count, 1);
     groups->watched = memory_alloc(count, 1);
-    if (!groups->lanes || !groups->start || !groups->node || !groups->velocity || !groups->box || !groups->radius ||
+    if (!groups->lanes || !groups->start || !groups->node || !groups->low[0] || !groups->box || !groups->radius ||
         !groups->side || !groups->body || !groups->idle || !groups->watched)
         return -1;
     for (int g = 0; g < groups->count; g++) {
@@ -91,34 +93,20 @@ void contact_groups_renew(ContactGroups *groups, const ContactItems *items)
     }
 }
 
-static void find_velocities(ContactGroups *groups, const double *v, int g)
-{
-    ContactBox box;
-    contact_box_start(&box, v + 3 * (ptrdiff_t)groups->node[groups->start[g]]);
-    for (int32_t k = groups->start[g] + 1; k < groups->start[g + 1]; k++)
-        contact_box_add(&box, v + 3 * (ptrdiff_t)groups->node[k]);
-    for (int k = 0; k < 3; k++) {
-        groups->velocity[g].low[k] = (float)(box.low[k] - 1e-6 * fabs(box.low[k]));
-        groups->velocity[g].high[k] = (float)(box.high[k] + 1e-6 * fabs(box.high[k]));
-    }
-}
-
-void contact_groups_place(ContactGroups *groups, const double *x, const double *v, int first, int end)
+void contact_groups_place(ContactGroups *groups, const double *x, int first, int end)
 {
     for (int g = first; g < end; g++) {
         ContactBox *box = &groups->box[g];
         contact_box_start(box, x + 3 * (ptrdiff_t)groups->node[groups->start[g]]);
         for (int32_t k = groups->start[g] + 1; k < groups->start[g + 1]; k++)
             contact_box_add(box, x + 3 * (ptrdiff_t)groups->node[k]);
-        find_velocities(groups, v, g);
-        groups->watched[g] = 0;
+        groups->watched[g] = 1;
     }
 }
 
-void contact_groups_follow(ContactGroups *groups, const double *v, int first, int end)
+void contact_groups_unwatch(ContactGroups *groups, int first, int end)
 {
-    for (int g = first; g < end; g++)
-        if (groups->watched[g]) find_velocities(groups, v, g);
+    for (int g = first; g < end; g++) groups->watched[g] = 0;
 }
 
 bool contact_groups_meet(const ContactGroups *a, int g, const ContactGroups *b, int h)
@@ -132,7 +120,7 @@ void contact_groups_free(ContactGroups *groups)
     memory_free(groups->lanes);
     memory_free(groups->start);
     memory_free(groups->node);
-    memory_free(groups->velocity);
+    memory_free(groups->low[0]);
     memory_free(groups->box);
     memory_free(groups->radius);
     memory_free(groups->side);

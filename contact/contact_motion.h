@@ -41,11 +41,6 @@ typedef struct ContactMotion {
     ContactDrift drift;
 } ContactMotion;
 
-/* Box around the velocities of a group, rounded outward; the fourth component is 0 [L/T]. */
-typedef struct ContactVelocities {
-    float low[4], high[4];
-} ContactVelocities;
-
 /* Items of one kind as the interface has them; arrays by item. */
 typedef struct ContactItems {
     int count, corners;
@@ -70,16 +65,16 @@ typedef struct ContactLanes {
 
 typedef struct ContactGroups {
     int count;
-    ContactLanes *lanes;         /* (count) */
-    int32_t *start;              /* of each group in node (count + 1) */
-    int32_t *node;               /* nodes of each group, each once */
-    ContactVelocities *velocity; /* now (count) */
-    ContactBox *box;             /* around its nodes at the last search (count) [L] */
-    double *radius;              /* largest of its items (count) [L] */
-    unsigned char *side;         /* of all its items (count) */
-    int32_t *body;               /* of all its items, or CONTACT_MIXED (count) */
-    unsigned char *idle;         /* none of its items meets anything (count) */
-    unsigned char *watched;      /* it is in a pair: its velocity is kept (count) */
+    ContactLanes *lanes;     /* (count) */
+    int32_t *start;          /* of each group in node (count + 1) */
+    int32_t *node;           /* nodes of each group, each once */
+    float *low[3], *high[3]; /* boxes around velocities now, rounded outward; low[0] owns all (count) [L/T] */
+    ContactBox *box;         /* around its nodes at the last search (count) [L] */
+    double *radius;          /* largest of its items (count) [L] */
+    unsigned char *side;     /* of all its items (count) */
+    int32_t *body;           /* of all its items, or CONTACT_MIXED (count) */
+    unsigned char *idle;     /* none of its items meets anything (count) */
+    unsigned char *watched;  /* it is in a pair: its velocity is kept (count) */
 } ContactGroups;
 
 /* Groups of items in an order by contact_patches. 0, or -1 without memory. */
@@ -88,25 +83,22 @@ int contact_groups_create(ContactGroups *groups, const ContactItems *items, cons
 /* What the items are is new, but not which there are nor their nodes. */
 void contact_groups_renew(ContactGroups *groups, const ContactItems *items);
 
-/* At a search: boxes of the groups [first, end) at positions x, their velocities; none is watched yet. */
-void contact_groups_place(ContactGroups *groups, const double *x, const double *v, int first, int end);
+/* At a search: boxes of the groups [first, end) at positions x; all are watched, until contact_groups_unwatch. */
+void contact_groups_place(ContactGroups *groups, const double *x, int first, int end);
 
-/* Velocities of the watched groups of [first, end). */
-void contact_groups_follow(ContactGroups *groups, const double *v, int first, int end);
+/* None of [first, end) is watched. */
+void contact_groups_unwatch(ContactGroups *groups, int first, int end);
 
 /* Can an item of group g meet one of group h? */
 bool contact_groups_meet(const ContactGroups *a, int g, const ContactGroups *b, int h);
 
-/* How fast two points of two groups may come nearer at most. */
-static inline double contact_closing(const ContactVelocities *a, const ContactVelocities *b)
+/* Keeps the box low to high around the velocities of group g. */
+static inline void contact_velocity_keep(ContactGroups *groups, int g, const double *low, const double *high)
 {
-    float square = 0.0f;
-    for (int k = 0; k < 4; k++) {
-        float up = a->high[k] - b->low[k], down = b->high[k] - a->low[k];
-        up = up > down ? up : down;
-        square += up * up;
+    for (int k = 0; k < 3; k++) {
+        groups->low[k][g] = (float)(low[k] - 1e-6 * fabs(low[k]));
+        groups->high[k][g] = (float)(high[k] + 1e-6 * fabs(high[k]));
     }
-    return sqrt((double)square * (1.0 + 1e-6));
 }
 
 void contact_groups_free(ContactGroups *groups);

@@ -15,29 +15,46 @@ static void keep_found(ContactPart *part)
     for (int k = 0; k < look->count; k++) part->near[part->near_count++] = look->found[k];
 }
 
+/* Looks closely at one pair of groups, of which two points may come nearer by step. Returns their slack. */
+static double look_at(ContactLoop *loop, ContactRun *run, bool edges, int group, int other, double step, int thread)
+{
+    const ContactList *list = edges ? &run->edges : &run->faces;
+    const ContactGroups *own = edges ? &run->lines : &run->nodes, *all = edges ? &run->lines : &run->triangles;
+    ContactPart *part = &loop->parts[thread];
+    ContactLook *look = &part->look;
+    double thickness = own->radius[group] + all->radius[other];
+    look->x = loop->state->x;
+    look->depth = list->depth;
+    look->deepest = list->deepest[group];
+    look->owners = &own->lanes[group];
+    look->others = &all->lanes[other];
+    look->reach = thickness + step;
+    (edges ? loop->kernels->edges : loop->kernels->faces)(look);
+    if (look->count > 0) keep_found(part);
+    return look->nearest - thickness;
+}
+
 void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread)
 {
     ContactList *list = edges ? &run->edges : &run->faces;
-    const ContactGroups *own = edges ? &run->lines : &run->nodes, *all = edges ? &run->lines : &run->triangles;
-    ContactPart *part = &loop->parts[thread];
-    const ContactVelocities *velocity = &own->velocity[group];
-    double before = loop->step.before, longer = loop->step.longer, deepest = list->deepest[group];
-    part->near_count = 0;
-    for (int32_t k = list->start[group]; k < list->start[group + 1]; k++) {
-        ContactGroupPair *pair = &list->pair[k];
-        double speed = contact_closing(velocity, &all->velocity[pair->other]), step = speed * longer;
-        pair->slack -= speed * before;
-        if (pair->slack > step + deepest) continue;
-        double thickness = own->radius[group] + all->radius[pair->other];
-        part->look.x = loop->state->x;
-        part->look.depth = list->depth;
-        part->look.deepest = deepest;
-        part->look.owners = &own->lanes[group];
-        part->look.others = &all->lanes[pair->other];
-        part->look.reach = thickness + step;
-        (edges ? loop->kernels->edges : loop->kernels->faces)(&part->look);
-        pair->slack = part->look.nearest - thickness;
-        if (part->look.count > 0) keep_found(part);
+    ContactWatch watch = {.own = edges ? &run->lines : &run->nodes,
+                          .others = edges ? &run->lines : &run->triangles,
+                          .group = group,
+                          .before = (float)loop->step.before,
+                          .longer = (float)loop->step.longer,
+                          .deepest = (float)list->deepest[group]};
+    loop->parts[thread].near_count = 0;
+    for (int32_t first = list->start[group], end = list->start[group + 1]; first < end; first += CONTACT_GROUP) {
+        int count = end - first < CONTACT_GROUP ? end - first : CONTACT_GROUP;
+        const int32_t *other = list->pairs.other + first;
+        float *slack = list->pairs.slack + first;
+        _Alignas(64) float speed[CONTACT_GROUP];
+        unsigned awake = loop->motion_kernels->wake(&watch, other, slack, count, speed);
+        for (; awake; awake &= awake - 1) {
+            int k = __builtin_ctz(awake);
+            double step = (double)speed[k] * loop->step.longer;
+            slack[k] = contact_slack(look_at(loop, run, edges, group, other[k], step, thread));
+        }
     }
 }
 

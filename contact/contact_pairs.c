@@ -1,14 +1,31 @@
 /* Pairs of groups: what threads found behind each other. */
 #include "contact/contact_pairs.h"
 
+#include <float.h>
 #include <string.h>
 
 #include "solver/memory.h"
 
+/* Room for count pairs. */
+static int reserve(ContactGroupPairs *pairs, size_t count)
+{
+    return memory_reserve((void **)&pairs->other, &pairs->other_capacity, count, sizeof *pairs->other) ||
+                   memory_reserve((void **)&pairs->slack, &pairs->slack_capacity, count, sizeof *pairs->slack)
+               ? -1
+               : 0;
+}
+
+void contact_pairs_free(ContactGroupPairs *pairs)
+{
+    memory_free(pairs->other);
+    memory_free(pairs->slack);
+}
+
 int contact_part_add(ContactPart *part, int32_t other, double slack)
 {
-    if (memory_reserve((void **)&part->pair, &part->pair_capacity, part->pair_count + 1, sizeof *part->pair)) return -1;
-    part->pair[part->pair_count++] = (ContactGroupPair){.slack = slack, .other = other};
+    if (reserve(&part->pairs, part->pair_count + 1)) return -1;
+    part->pairs.other[part->pair_count] = other;
+    part->pairs.slack[part->pair_count++] = contact_slack(slack);
     return 0;
 }
 
@@ -18,36 +35,37 @@ int contact_first_of(int count, int thread, int threads)
 }
 
 /* A pair that was there before may know better how far apart its groups are. */
-void contact_pairs_remember(const ContactList *list, int group, ContactGroupPair *pair, size_t count)
+void contact_pairs_remember(const ContactList *list, int group, ContactPart *part, size_t first)
 {
     int32_t old = list->start[group], end = list->start[group + 1];
-    for (size_t k = 0; k < count; k++) {
-        while (old < end && list->pair[old].other < pair[k].other) old++;
-        if (old < end && list->pair[old].other == pair[k].other)
-            pair[k].slack = fmax(pair[k].slack, list->pair[old].slack);
+    const ContactGroupPairs *before = &list->pairs;
+    for (size_t k = first; k < part->pair_count; k++) {
+        while (old < end && before->other[old] < part->pairs.other[k]) old++;
+        if (old < end && before->other[old] == part->pairs.other[k] && before->slack[old] > part->pairs.slack[k])
+            part->pairs.slack[k] = before->slack[old];
     }
 }
 
 int contact_pairs_join(ContactLoop *loop, ContactList *list, int threads)
 {
-    size_t count = 0, capacity = list->pair_capacity;
+    size_t count = 0;
     for (int k = 0; k < threads; k++) {
         const ContactPart *part = &loop->parts[k];
-        if (part->failed || memory_reserve((void **)&list->next, &list->next_capacity, count + part->pair_count + 1,
-                                           sizeof *list->next))
-            return -1;
+        if (part->failed || reserve(&list->next, count + part->pair_count + 1)) return -1;
         for (int g = contact_first_of(list->group_count, k, threads);
              g < contact_first_of(list->group_count, k + 1, threads); g++)
             list->next_start[g] += (int32_t)count;
-        if (part->pair_count > 0) memcpy(list->next + count, part->pair, part->pair_count * sizeof *part->pair);
+        if (part->pair_count > 0) {
+            memcpy(list->next.other + count, part->pairs.other, part->pair_count * sizeof *part->pairs.other);
+            memcpy(list->next.slack + count, part->pairs.slack, part->pair_count * sizeof *part->pairs.slack);
+        }
         count += part->pair_count;
     }
     list->next_start[list->group_count] = (int32_t)count;
-    ContactGroupPair *pair = list->pair;
+    ContactGroupPairs pairs = list->pairs;
     int32_t *start = list->start;
-    list->pair = list->next, list->next = pair;
+    list->pairs = list->next, list->next = pairs;
     list->start = list->next_start, list->next_start = start;
-    list->pair_capacity = list->next_capacity, list->next_capacity = capacity;
     return 0;
 }
 
@@ -58,5 +76,5 @@ void contact_pairs_forget(ContactList *list)
 
 void contact_awake(ContactList *list)
 {
-    for (int32_t k = 0; k < list->start[list->group_count]; k++) list->pair[k].slack = -INFINITY;
+    for (int32_t k = 0; k < list->start[list->group_count]; k++) list->pairs.slack[k] = -FLT_MAX;
 }
