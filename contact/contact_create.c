@@ -22,12 +22,13 @@ static int list_create(ContactList *list, int owners)
     list->start = memory_alloc(groups + 1, sizeof *list->start);
     list->next_start = memory_alloc(groups + 1, sizeof *list->next_start);
     list->deepest = memory_alloc(groups + 1, sizeof *list->deepest);
+    list->holds = memory_alloc(groups + 1, 1);
     list->memory = memory_alloc((size_t)owners * CONTACT_SLOTS + 1, sizeof *list->memory);
     list->held = memory_alloc((size_t)owners + 1, 1);
     list->partner = memory_alloc((size_t)owners * CONTACT_SLOTS + 1, sizeof *list->partner);
     list->depth = memory_alloc((size_t)owners + 1, sizeof *list->depth);
     return list->sums && list->pieces && list->passages && list->start && list->next_start && list->deepest &&
-                   list->memory && list->held && list->partner && list->depth
+                   list->holds && list->memory && list->held && list->partner && list->depth
                ? 0
                : -1;
 }
@@ -36,6 +37,7 @@ static void list_free(ContactList *list)
 {
     memory_free(list->memory);
     memory_free(list->held);
+    memory_free(list->holds);
     memory_free(list->partner);
     memory_free(list->depth);
     memory_free(list->deepest);
@@ -123,6 +125,8 @@ static void restore_memories(ContactLoop *loop)
             int owner = edge ? stored[k].pair[0] - run->contact->node_count : stored[k].pair[0];
             contact_keep(edge ? &run->edges : &run->faces, owner, stored[k].pair[1], &stored[k]);
         }
+        memset(run->faces.holds, 1, (size_t)run->faces.group_count);
+        memset(run->edges.holds, 1, (size_t)run->edges.group_count);
         for (int k = 0; k < run->nodes.count * CONTACT_GROUP; k++) {
             int g = k / CONTACT_GROUP, node = run->nodes.lanes[g].item[k % CONTACT_GROUP];
             if (node >= 0) run->faces.deepest[g] = fmax(run->faces.deepest[g], run->faces.depth[node]);

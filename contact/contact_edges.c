@@ -133,6 +133,7 @@ static bool leave_to(ContactLoop *loop, ContactRun *run, const ContactPassage *e
         m.friction[k] *= sign;
     }
     contact_keep(&run->edges, owner, other, &m);
+    run->edges.holds[run->line_group[owner]] = 1;
     return true;
 }
 
@@ -175,7 +176,7 @@ void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
     passages->count = 0;
     contact_find_near(loop, run, true, group, thread);
-    if (contact_sort_near(part, list, lanes, start)) part->failed = true;
+    if (contact_sort_near(part, list, group, lanes, start)) part->failed = true;
     if (part->failed || start[CONTACT_GROUP] == 0) return;
     ContactForce *forces = contact_force_room(part, (size_t)start[CONTACT_GROUP]);
     if (!forces) return;

@@ -247,7 +247,7 @@ void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     *sums = (ContactSums){0};
     list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
     list->deepest[group] = 0.0;
-    if (contact_sort_near(part, list, lanes, start)) part->failed = true;
+    if (contact_sort_near(part, list, group, lanes, start)) part->failed = true;
     if (part->failed || start[CONTACT_GROUP] == 0) return;
     ContactForce *forces = contact_force_room(part, (size_t)CONTACT_GROUP * MOST_NEAR);
     if (!forces) return;

@@ -66,13 +66,13 @@ typedef struct ContactGroupPairs {
 /* Pairs of one kind and what becomes of them in a cycle. */
 typedef struct ContactList {
     int owner_count, group_count;
-    ContactMemory *memory; /* contact_slot (CONTACT_SLOTS x owner_count) */
-    unsigned char
-        *held;        /* the owner's memories are its first so many; lost ones among them have side 0 (owner_count) */
-    int32_t *partner; /* other item of each memory (owner_count x CONTACT_SLOTS) */
-    double *depth;    /* how deep each node was behind a surface at its last look (owner_count) [L] */
-    double *deepest;  /* of each group (group_count) [L] */
-    int32_t *start;   /* of each group in pairs (group_count + 1) */
+    ContactMemory *memory;   /* contact_slot (CONTACT_SLOTS x owner_count) */
+    unsigned char *held;     /* the first so many are an owner's; lost ones among them have side 0 (owner_count) */
+    unsigned char *holds;    /* of each group: its owners may have memories (group_count) */
+    int32_t *partner;        /* other item of each memory (owner_count x CONTACT_SLOTS) */
+    double *depth;           /* how deep each node was behind a surface at its last look (owner_count) [L] */
+    double *deepest;         /* of each group (group_count) [L] */
+    int32_t *start;          /* of each group in pairs (group_count + 1) */
     ContactGroupPairs pairs; /* ascending (start[group_count]) */
     int32_t *next_start;     /* workspace of the search: the new list */
     ContactGroupPairs next;
@@ -243,7 +243,7 @@ void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group
 
 /* The others of each owner in near and in memory, ascending: those of lane k of the group are other[start[k]] to
  * other[start[k + 1]] of the part. -1 without memory. */
-int contact_sort_near(ContactPart *part, const ContactList *list, const ContactLanes *lanes,
+int contact_sort_near(ContactPart *part, ContactList *list, int group, const ContactLanes *lanes,
                       int start[CONTACT_GROUP + 1]);
 
 /* Room for more forces of a thread; NULL without memory. */

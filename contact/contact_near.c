@@ -80,11 +80,13 @@ static bool remembers(const ContactList *list, const ContactLanes *lanes)
     return false;
 }
 
-int contact_sort_near(ContactPart *part, const ContactList *list, const ContactLanes *lanes,
+int contact_sort_near(ContactPart *part, ContactList *list, int group, const ContactLanes *lanes,
                       int start[CONTACT_GROUP + 1])
 {
     start[CONTACT_GROUP] = 0;
-    if (part->near_count == 0 && !remembers(list, lanes)) return 0;
+    if (list->holds[group]) list->holds[group] = remembers(list, lanes);
+    if (part->near_count == 0 && !list->holds[group]) return 0;
+    list->holds[group] = 1; /* what is near may come to be held */
     int of_owner[CONTACT_GROUP] = {0}, place[CONTACT_GROUP], sum = 0, kept = 0;
     if (memory_reserve((void **)&part->other, &part->other_capacity,
                        part->near_count + (size_t)CONTACT_GROUP * CONTACT_SLOTS, sizeof *part->other))
