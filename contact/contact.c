@@ -113,12 +113,16 @@ void contact_prepare(ContactLoop *loop, double time, double before, double next,
         }
         if (eroded) contact_erode(loop);
     }
-    if (!due) return;
+    if (!due) {
+        contact_sharpen(loop, thread, team);
+        return;
+    }
     contact_search(loop, thread, team);
     if (thread != 0) return;
     loop->search_due = false;
     if (eroded) loop->eroded_seen = *loop->state->eroded_count;
     loop->state->contact->started = 1;
+    loop->state->contact->unseen = 0;
 }
 
 static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run, int thread)
@@ -133,6 +137,7 @@ static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run, int thr
                         .cycle = loop->cycle,
                         .room = loop->room,
                         .corner = loop->corner,
+                        .firm = loop->firm,
                         .pulled = loop->pulled,
                         .time = loop->step.time,
                         .before = loop->step.before,
@@ -199,6 +204,8 @@ static void gather_list(ContactLoop *loop, const ContactList *list, int32_t firs
                 if (node < first || node >= end) continue;
                 for (int a = 0; a < 3; a++) to[a] += weight * force->force[a];
                 to[3] += fabs(weight) * force->load;
+                loop->firm[node] += fabs(weight) * force->firm;
+                if (force->blocks && weight != 0.0) loop->covered[node] = 1;
                 loop->written[node / CONTACT_NODE_CHUNK] = 1;
             }
     }
@@ -210,12 +217,15 @@ void contact_gather(ContactLoop *loop, int thread, int threads)
     int32_t low = (int32_t)(chunks * thread / threads), high = (int32_t)(chunks * (thread + 1) / threads);
     int32_t first = low * CONTACT_NODE_CHUNK;
     int32_t end = high * CONTACT_NODE_CHUNK < nodes ? high * CONTACT_NODE_CHUNK : (int32_t)nodes;
+    if (thread == 0) loop->state->contact->unseen++;
     for (int i = 0; thread == 0 && i < loop->model->contact_count; i++)
         if (loop->runs[i].alive) contact_pass_on(loop, &loop->runs[i]);
     for (int32_t c = low; c < high; c++) {
         int32_t from = c * CONTACT_NODE_CHUNK, to = from + CONTACT_NODE_CHUNK < end ? from + CONTACT_NODE_CHUNK : end;
         if (!loop->written[c]) continue;
         memset(loop->corner + CONTACT_ROW * (ptrdiff_t)from, 0, CONTACT_ROW * (size_t)(to - from) * sizeof(double));
+        memset(loop->firm + from, 0, (size_t)(to - from) * sizeof(double));
+        memset(loop->covered + from, 0, (size_t)(to - from));
         loop->written[c] = 0;
     }
     for (int i = 0; i < loop->model->contact_count; i++) {
@@ -235,7 +245,7 @@ static void share_blocked(ContactLoop *loop, int thread, int threads)
         const int32_t *node = m->element_node + 4 * (ptrdiff_t)e;
         int corners = node[3] == node[2] ? 3 : 4, touching = 0;
         if (m->has_erosion && loop->state->eroded[m->element_slot[e]]) corners = 0;
-        for (int k = 0; k < corners; k++) touching += loop->corner[CONTACT_ROW * (ptrdiff_t)node[k] + 3] > 0.0;
+        for (int k = 0; k < corners; k++) touching += loop->covered[node[k]];
         loop->state->contact_share[e] = corners ? (double)touching / corners : 0.0;
     }
 }
@@ -348,6 +358,8 @@ void contact_store(ContactLoop *loop)
         if (before > count) memset(to + count, 0, (size_t)(before - count) * sizeof *to);
         loop->state->contact_memories[i] = count;
     }
-    for (int n = 0; n < loop->model->node_count; n++)
-        loop->state->contact_load[n] = loop->corner[CONTACT_ROW * (ptrdiff_t)n + 3];
+    for (int n = 0; n < loop->model->node_count; n++) {
+        loop->state->contact_load[2 * (ptrdiff_t)n] = loop->corner[CONTACT_ROW * (ptrdiff_t)n + 3];
+        loop->state->contact_load[2 * (ptrdiff_t)n + 1] = loop->firm[n];
+    }
 }

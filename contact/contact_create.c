@@ -79,6 +79,8 @@ void contact_free(ContactLoop *loop)
     memory_free(loop->parts);
     memory_free(loop->written);
     memory_free(loop->room);
+    memory_free(loop->firm);
+    memory_free(loop->covered);
     memory_free(loop->around);
     memory_free(loop->pulled);
     memory_free(loop->mark);
@@ -246,11 +248,14 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     loop->written = memory_alloc((size_t)model->node_count / CONTACT_NODE_CHUNK + 1, 1);
     loop->room = memory_alloc(6 * (size_t)model->node_count, sizeof(double));
     loop->around = memory_alloc((size_t)model->node_count, sizeof(double));
+    loop->firm = memory_alloc((size_t)model->node_count, sizeof(double));
+    loop->covered = memory_alloc((size_t)model->node_count, 1);
     loop->pulled = contact_list_pulled(model);
     loop->resultant = memory_alloc(3 * (size_t)model->contact_count + 1, sizeof(double));
     if (model->entity_count > 0) loop->entities = entities_create(model, state);
     int status = loop->runs && loop->parts && loop->motions && loop->written && loop->resultant && loop->room &&
-                         loop->around && loop->pulled && (model->entity_count == 0 || loop->entities)
+                         loop->around && loop->firm && loop->covered && loop->pulled &&
+                         (model->entity_count == 0 || loop->entities)
                      ? 0
                      : -1;
     for (int i = 0; !status && i < model->contact_count; i++) status = run_create(loop, i);
@@ -266,8 +271,10 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
         loop->restored = false;
         if (!loop->out_of_memory) restore_memories(loop);
         loop->search_due = has_moved(model, state);
-        for (int n = 0; n < model->node_count; n++)
-            loop->corner[CONTACT_ROW * (ptrdiff_t)n + 3] = state->contact_load[n];
+        for (int n = 0; n < model->node_count; n++) {
+            loop->corner[CONTACT_ROW * (ptrdiff_t)n + 3] = state->contact_load[2 * (ptrdiff_t)n];
+            loop->firm[n] = state->contact_load[2 * (ptrdiff_t)n + 1];
+        }
         memset(loop->written, 1, (size_t)model->node_count / CONTACT_NODE_CHUNK + 1);
     } else {
         loop->search_due = true;

@@ -9,6 +9,11 @@
  * take over. */
 #define SLACK 0.05
 
+/* A crossing that has slid on keeps its direction and its gap: cosine between the forces, and change of the gap over
+ * the thickness. Another pair of edges nearby is on a side of its own. */
+#define PASSAGE_TURN 0.5
+#define PASSAGE_JUMP 0.5
+
 /* Two edges whose lines cross within both. */
 typedef struct Crossing {
     double normal[3]; /* unit normal of both lines: first x second */
@@ -106,6 +111,8 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     if (m->side) memcpy(m->direction, t.direction, sizeof m->direction);
     if (m == &fresh && m->side != 0) contact_keep(&run->edges, e, f, m);
     if (!counts) return;
+    const unsigned char *sharp = loop->state->contact_sharp + c->first_edge;
+    out->blocks = sharp[e] && sharp[f];
     sums->count++;
     double sign = c->edge_side[e] & CONTACT_SIDE_A ? 1.0 : -1.0;
     for (int k = 0; k < 3; k++) sums->force[k] += sign * out->force[k];
@@ -115,19 +122,20 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
 static bool leave_to(ContactLoop *loop, ContactRun *run, const ContactPassage *ended, int e, int f)
 {
     const unsigned char *sharp = loop->state->contact_sharp + run->contact->first_edge;
-    const double *p[4];
+    const double *p[4], *was = ended->memory.direction;
     Crossing cross;
     bool swapped = run->line_group[f] < run->line_group[e] || (run->line_group[f] == run->line_group[e] && f < e);
     int owner = swapped ? f : e, other = swapped ? e : f;
-    if (e == f || !sharp[e] || !sharp[f] || contact_recall(&run->edges, owner, other)) return false;
+    if (e == f || !(sharp[e] || sharp[f]) || contact_recall(&run->edges, owner, other)) return false;
     if (!contact_edges_meet(loop->model, run->contact, owner, other)) return false;
     edge_ends(run->contact, loop->state->x, owner, other, p);
     /* it has slid along: the gap is about what it was */
     double thickness = run->thinness * (run->contact->edge_radius[e] + run->contact->edge_radius[f]);
     if (!cross_edges(&cross, p, thickness + fabs(ended->memory.gap), SLACK)) return false;
-    double sign = swapped ? -1.0 : 1.0;
+    double sign = swapped ? -1.0 : 1.0, along = sign * vector3_dot(was, cross.normal);
     ContactMemory m = ended->memory;
-    m.side = sign * vector3_dot(ended->memory.direction, cross.normal) >= 0.0 ? 1 : -1;
+    m.side = along >= 0.0 ? 1 : -1;
+    if (fabs(along) < PASSAGE_TURN || fabs(m.side * cross.height - m.gap) > PASSAGE_JUMP * thickness) return false;
     for (int k = 0; k < 3; k++) {
         m.direction[k] = m.side * cross.normal[k];
         m.friction[k] *= sign;

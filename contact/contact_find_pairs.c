@@ -10,60 +10,6 @@
 #include "solver/memory.h"
 #include "solver/vector3.h"
 
-/* Edges whose triangles are turned by less than this (1.8 degrees) are left to the nodes. */
-#define SHARP_COSINE 0.9995
-
-/* Unit normal and offset of triangles [first, end) at x; zero without area. */
-static void fill_planes(ContactRun *run, const double *x, int first, int end)
-{
-    const ContactInterface *c = run->contact;
-    for (int t = first; t < end; t++) {
-        double *plane = run->plane + 4 * (ptrdiff_t)t, a[3], b[3], n[3];
-        const double *corner = x + 3 * (ptrdiff_t)c->triangle[3 * t];
-        vector3_subtract(x + 3 * (ptrdiff_t)c->triangle[3 * t + 1], corner, a);
-        vector3_subtract(x + 3 * (ptrdiff_t)c->triangle[3 * t + 2], corner, b);
-        vector3_cross(a, b, n);
-        double square = vector3_dot(n, n), inverse = square > 0.0 ? 1.0 / sqrt(square) : 0.0;
-        for (int k = 0; k < 3; k++) plane[k] = n[k] * inverse;
-    }
-}
-
-/* A free edge, a branch, or an edge at which the surface is turned. Planes are those at the search. */
-static bool is_sharp(const ContactRun *run, int e)
-{
-    const ContactInterface *c = run->contact;
-    int32_t t = c->edge_triangle[2 * e], u = c->edge_triangle[2 * e + 1];
-    return u < 0 || vector3_dot(run->plane + 4 * (ptrdiff_t)t, run->plane + 4 * (ptrdiff_t)u) < SHARP_COSINE;
-}
-
-static void mark_sharp(const ContactRun *run, unsigned char *sharp, int first, int end)
-{
-    for (int e = first; e < end; e++) sharp[e] = is_sharp(run, e);
-}
-
-/* Edges in contact, which were so before, stay; groups without a sharp edge rest. */
-static void keep_sharp(ContactRun *run, unsigned char *sharp)
-{
-    const ContactList *list = &run->edges;
-    for (int e = 0; e < list->owner_count; e++)
-        for (int k = 0; k < list->held[e]; k++) {
-            const ContactMemory *m = contact_slot(list, e, k);
-            if (m->side) sharp[e] = sharp[m->pair[1]] = 1;
-        }
-}
-
-static void mark_idle(ContactRun *run, const unsigned char *sharp)
-{
-    for (int g = 0; g < run->lines.count; g++) {
-        ContactLanes *lanes = &run->lines.lanes[g];
-        run->lines.idle[g] = 1;
-        for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) {
-            lanes->sharp[k] = sharp[lanes->item[k]];
-            if (lanes->sharp[k]) run->lines.idle[g] = 0;
-        }
-    }
-}
-
 /* Distance of two boxes. */
 static double boxes_apart(const ContactBox *a, const ContactBox *b)
 {
@@ -80,7 +26,6 @@ static void place_groups(ContactLoop *loop, ContactRun *run, int thread, int thr
 {
     const double *x = loop->state->contact_searched;
     ContactGroups *all[3] = {&run->nodes, &run->triangles, &run->lines};
-    int triangles = run->contact->triangle_count;
     for (int k = 0; k < 3; k++) {
         int first = contact_first_of(all[k]->count, thread, threads),
             end = contact_first_of(all[k]->count, thread + 1, threads);
@@ -88,17 +33,17 @@ static void place_groups(ContactLoop *loop, ContactRun *run, int thread, int thr
         loop->motion_kernels->follow(all[k], loop->state->v, first, end);
         contact_groups_unwatch(all[k], first, end);
     }
-    fill_planes(run, x, contact_first_of(triangles, thread, threads), contact_first_of(triangles, thread + 1, threads));
+    contact_sharp_planes(run, x, thread, threads);
 }
 
-/* Sorts the boxes around the groups that others may meet. */
+/* Sorts the boxes around groups. */
 static int fill_grid(ContactLoop *loop, const ContactGroups *groups)
 {
     if (memory_reserve((void **)&loop->box, &loop->box_capacity, (size_t)groups->count + 1, sizeof *loop->box))
         return -1;
     for (int h = 0; h < groups->count; h++) {
-        loop->box[h] = groups->idle[h] ? (ContactBox){{1, 1, 1}, {0, 0, 0}} : groups->box[h];
-        if (!groups->idle[h]) contact_box_grow(&loop->box[h], groups->radius[h] + loop->state->contact->skin);
+        loop->box[h] = groups->box[h];
+        contact_box_grow(&loop->box[h], groups->radius[h] + loop->state->contact->skin);
     }
     return contact_grid_fill(&loop->grid, loop->box, groups->count);
 }
@@ -115,7 +60,6 @@ static void find_groups(ContactLoop *loop, ContactList *list, const ContactGroup
         ContactBox box = own->box[g];
         size_t first = part->pair_count;
         list->next_start[g] = (int32_t)first;
-        if (own->idle[g]) continue;
         contact_box_grow(&box, own->radius[g]);
         int found = contact_grid_query(&loop->grid, &box, &part->found);
         part->failed = found < 0;
@@ -148,19 +92,15 @@ static void wait_for(Team *team)
 static void find_pairs(ContactLoop *loop, ContactRun *run, int thread, Team *team)
 {
     int threads = team ? team_size(team) : 1, edges = run->contact->edge_count;
-    unsigned char *sharp = loop->state->contact_sharp + run->contact->first_edge;
     place_groups(loop, run, thread, threads);
     wait_for(team);
-    if (!loop->restored)
-        mark_sharp(run, sharp, contact_first_of(edges, thread, threads), contact_first_of(edges, thread + 1, threads));
+    contact_sharp_mark(loop, run, thread, threads);
     if (thread == 0 && fill_grid(loop, &run->triangles)) loop->out_of_memory = true;
     wait_for(team);
     if (loop->out_of_memory) return;
     find_groups(loop, &run->faces, &run->nodes, &run->triangles, thread, threads);
     wait_for(team);
     if (thread == 0) {
-        if (!loop->restored) keep_sharp(run, sharp);
-        mark_idle(run, sharp);
         if (contact_pairs_join(loop, &run->faces, threads) || (edges > 0 && fill_grid(loop, &run->lines)))
             loop->out_of_memory = true;
         else

@@ -13,6 +13,9 @@
 /* Least gap that a step may leave, as a share of the distance at which the pair begins to push (eq. C13). */
 #define CONTACT_FLOOR 0.3
 
+/* Share of what a gap is short of that floor by, which the coming step gives back. */
+#define CONTACT_RISE 0.2
+
 /* What a gap may close by in a step beyond the pair's velocity: shares of the thickness and of the way (eq. C8a). */
 #define CONTACT_JUMP 0.02
 #define CONTACT_JUMP_WAY 0.1
@@ -29,6 +32,7 @@ typedef struct ContactLaw {
     const double *rows;          /* corner sums of the elements, elements/kernels.h (row_count x ROW_SIZE) */
     const double *pressure;      /* of each pressure set (pressure_set_count + 1) */
     const double *room;          /* by node, contact/contact_loop.h (node_count x 6) */
+    const double *firm;          /* loads by pairs at the limit, likewise (node_count) */
     const double *corner;        /* loads of the last cycle, fourth in a node's row */
     const unsigned char *pulled; /* contact_list_pulled */
     double time, before, next;   /* t_n, dt_{n-1/2}, dt_{n+1/2} */
@@ -68,6 +72,7 @@ typedef struct ContactMasses {
     double effective; /* eq. C3; 0: nothing of it can move */
     double load;      /* C of eq. C6 */
     double least;     /* M, the least m/S of its nodes */
+    double firm;      /* the same as M with the loads of pairs at the limit alone */
     double stiff;     /* B, the least m R/S of them: k dt^2 must not be larger (eq. C4) */
 } ContactMasses;
 
@@ -86,7 +91,7 @@ static inline double contact_room(const double *h, const double *d)
 static inline ContactMasses contact_masses(const ContactLaw *law, const ContactTouch *t)
 {
     ContactMasses masses = {0};
-    double inverse = 0.0, worst = 0.0, softest = 0.0; /* one over the effective mass, over M, over B */
+    double inverse = 0.0, worst = 0.0, softest = 0.0, firm = 0.0; /* one over the effective mass, over M, B and M_L */
     for (int i = 0; i < 4; i++)
         if (law->inverse[t->node[i]] > 0.0) masses.load += fabs(t->weight[i]);
     for (int i = 0; i < 4; i++) {
@@ -98,10 +103,14 @@ static inline ContactMasses contact_masses(const ContactLaw *law, const ContactT
         worst = loaded > worst ? loaded : worst;
         double soft = loaded * contact_inverse_room(law->room + 6 * (ptrdiff_t)t->node[i], t->direction);
         softest = soft > softest ? soft : softest;
+        double held = law->firm[t->node[i]];
+        held = (held > own ? held : own) * of_node;
+        firm = held > firm ? held : firm;
     }
     if (!(inverse > 0.0)) return masses;
     masses.effective = 1.0 / inverse;
     masses.least = 1.0 / worst;
+    masses.firm = 1.0 / firm;
     masses.stiff = 1.0 / softest;
     return masses;
 }
@@ -159,13 +168,13 @@ static inline double contact_mean_depth(double depth, double h)
 }
 
 /* The stiffness follows the step as long as its bound allows; where it rises under load the distance falls, so that
- * the force stays and no energy comes of it (eq. C4a). */
+ * no energy comes of it (eq. C4a). */
 static inline void contact_stiffen(const ContactTouch *t, double stiffness, bool new_pair, ContactMemory *m)
 {
     if (new_pair || stiffness < m->stiffness) {
         m->stiffness = stiffness;
     } else if (stiffness > 1.25 * m->stiffness) {
-        if (m->distance > t->gap) m->distance = t->gap + (m->distance - t->gap) * m->stiffness / stiffness;
+        if (m->distance > t->gap) m->distance = t->gap + (m->distance - t->gap) * sqrt(m->stiffness / stiffness);
         m->stiffness = stiffness;
     }
 }
@@ -190,14 +199,16 @@ static inline double contact_limit(const ContactLaw *law, const ContactTouch *t,
                                    double normal_speed, double force, const ContactMemory *m)
 {
     double mean = 0.5 * (law->before + law->next), least = CONTACT_FLOOR * m->distance;
-    double slowest = t->gap > least ? (least - t->gap) / law->next : 0.0, pull[3] = {0.0, 0.0, 0.0};
+    double way = least - t->gap, pull[3] = {0.0, 0.0, 0.0};
+    if (way > 0.0) way = least > 0.0 ? CONTACT_RISE * (way < least ? way : least) : 0.0;
+    double slowest = way / law->next, most = m->limit > 0.0 ? masses->firm : masses->least;
     for (int i = 0; i < 4; i++) {
         if (t->weight[i] == 0.0) continue;
         const double *a = contact_pull(law, t->node[i]);
         for (int k = 0; k < 3; k++) pull[k] += t->weight[i] * a[k];
     }
     double speed = normal_speed + (vector3_dot(pull, t->direction) + (force + m->limit) / masses->effective) * mean;
-    double mass = masses->effective < masses->least || speed > slowest ? masses->effective : masses->least;
+    double mass = masses->effective < most || speed > slowest ? masses->effective : most;
     double limit = m->limit + mass * (slowest - speed) / mean;
     return limit > 0.0 ? limit : 0.0;
 }
@@ -222,6 +233,7 @@ static inline int contact_push(const ContactLaw *law, ContactTouch *t, ContactMe
     memcpy(out->node, t->node, sizeof out->node);
     memcpy(out->weight, t->weight, sizeof out->weight);
     out->load = masses.load;
+    out->blocks = true;
     double force = 0.0;
     if (touching) {
         double step2 = law->next * law->next, z = law->damping;
@@ -248,6 +260,7 @@ static inline int contact_push(const ContactLaw *law, ContactTouch *t, ContactMe
     }
     if (!touching) m->distance = t->thickness;
     m->limit = contact_limit(law, t, &masses, normal_speed, force, m);
+    out->firm = m->limit > 0.0 ? masses.load : 0.0;
     force += m->limit;
     for (int k = 0; k < 3; k++) out->force[k] = force * t->direction[k];
     if (touching && (law->static_friction > 0.0 || law->dynamic_friction > 0.0)) {

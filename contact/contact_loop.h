@@ -14,8 +14,8 @@
 #include "solver/team.h"
 
 enum {
-    CONTACT_ROW = 8,   /* doubles of a row of corner sums, elements/kernels.h: force, load, four zeros */
-    CONTACT_SLOTS = 8, /* pairs that a node or an edge can be in contact by */
+    CONTACT_ROW = 8,    /* doubles of a row of corner sums, elements/kernels.h: force, load, four zeros */
+    CONTACT_SLOTS = 16, /* pairs that a node or an edge can be in contact by */
 };
 
 /* One pair that touches, or will in the coming step: what its four nodes get. */
@@ -24,6 +24,8 @@ typedef struct ContactForce {
     double weight[4]; /* the force on node i is weight[i] force; the weights' sum is 0 */
     double force[3];  /* [F] */
     double load;      /* share of the pair in its nodes' loads, eq. C6 */
+    double firm;      /* the same if the limit of eq. C13 acts, else 0 */
+    bool blocks;      /* its nodes count as covered: no edge of it is flat */
 } ContactForce;
 
 /* An edge pair that has just lost its crossing while in contact: it has slid from one edge onto the next. */
@@ -193,6 +195,8 @@ typedef struct ContactLoop {
     size_t box_capacity;
     double *room; /* at the last search: (w dt)^2 that contact may add at a node in direction d is 1/(d . room d); xx yy
                    * zz xy yz zx (node_count x 6) */
+    double *firm; /* load of each node by its pairs at the limit of eq. C13 (node_count) */
+    unsigned char *covered;      /* nodes in contact, for leakage (node_count) */
     double *around;              /* workspace: mass of the elements at each node (node_count) */
     unsigned char *pulled;       /* of the special nodes: contact_list_pulled (moving - free count) */
     struct EntityLoop *entities; /* contact/entity_loop.h; NULL without */
@@ -224,6 +228,15 @@ double contact_room_left(const Model *m);
 
 /* All threads: new pairs of groups at State.contact_searched. */
 void contact_search(ContactLoop *loop, int thread, Team *team);
+
+/* Normals of a thread's share of the triangles at x. */
+void contact_sharp_planes(ContactRun *run, const double *x, int thread, int threads);
+
+/* A thread's share of the groups of edges: which are sharp by these normals; after a restart, by the State. */
+void contact_sharp_mark(ContactLoop *loop, ContactRun *run, int thread, int threads);
+
+/* Both, now and then, by all threads of the team between searches. */
+void contact_sharpen(ContactLoop *loop, int thread, Team *team);
 
 /* Fills room; elements, rest: (w dt)^2 that elements may have, and that they leave in their plane. */
 void contact_fill_room(ContactLoop *loop, const double *x, double elements, double rest);

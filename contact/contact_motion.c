@@ -111,7 +111,7 @@ void contact_groups_unwatch(ContactGroups *groups, int first, int end)
 
 bool contact_groups_meet(const ContactGroups *a, int g, const ContactGroups *b, int h)
 {
-    if (a->idle[g] || b->idle[h] || !contact_sides_meet(a->side[g], b->side[h])) return false;
+    if (!contact_sides_meet(a->side[g], b->side[h])) return false;
     return a->body[g] == CONTACT_MIXED || a->body[g] == -1 || a->body[g] != b->body[h];
 }
 

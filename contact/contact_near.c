@@ -52,6 +52,7 @@ void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group
         unsigned awake = loop->motion_kernels->wake(&watch, other, slack, count, speed);
         for (; awake; awake &= awake - 1) {
             int k = __builtin_ctz(awake);
+            if (watch.own->idle[group] && watch.others->idle[other[k]]) continue; /* until an edge is sharp */
             double step = (double)speed[k] * loop->step.longer;
             slack[k] = contact_slack(look_at(loop, run, edges, group, other[k], step, thread));
         }

@@ -175,7 +175,7 @@ static ContactMasses masses_of(const ContactLoop *loop, const ContactEntity *ent
         stiff = own_stiff < stiff ? own_stiff : stiff;
     }
     masses.effective = 1.0 / inverse;
-    masses.least = 1.0 / worst;
+    masses.least = masses.firm = 1.0 / worst;
     masses.stiff = stiff;
     return masses;
 }
@@ -269,6 +269,7 @@ void entities_gather(ContactLoop *loop, int32_t first, int32_t end)
                     if (weight == 0.0 || node < first || node >= end) continue;
                     for (int a = 0; a < 3; a++) to[a] += weight * hit->force[a];
                     to[3] += weight * share;
+                    loop->covered[node] = 1;
                     loop->written[node / CONTACT_NODE_CHUNK] = 1;
                 }
             }

@@ -300,8 +300,8 @@ ALWAYS_INLINE Lanes edge_distances(const EdgeLanes *e, int i, const EdgeLanes *f
     return lanes_larger(lanes_larger(one, two) - 2e-6f * (rr + uu + ww), lanes_of(0.0f));
 }
 
-/* Within one group each pair is looked at once. Edges that are not sharp count for the least distance only: they may be
- * so after the next search. */
+/* Within one group each pair is looked at once. Two edges neither of which is sharp count for the least distance only:
+ * they may be so a few cycles later. */
 static void look_from_edge(ContactLook *look, Search *search, const EdgeLanes *e, const EdgeLanes *f, int k)
 {
     const ContactLanes *owners = look->owners, *others = look->others;
@@ -317,8 +317,8 @@ static void look_from_edge(ContactLook *look, Search *search, const EdgeLanes *e
         lanes_store(&square, r, lanes_replace(edge_distances(e, k, f, r), lanes_out(meets, r), FLT_MAX));
     }
     take_best(search, &square);
-    if (!owners->sharp[k]) return;
-    note(look, k, meets & ~items_equal(others->sharp, 0) & items_within(&square, search->limit.at[k]));
+    if (!owners->sharp[k]) meets &= ~items_equal(others->sharp, 0);
+    note(look, k, meets & items_within(&square, search->limit.at[k]));
 }
 
 static void near_edges(ContactLook *look)

@@ -298,11 +298,11 @@ static void read_control_contact(KeywordRead *read)
         .name = keyword, .options = {"ID", "TITLE", "MPP"}, .cards = contact_cards,                                    \
         .card_count = (int)(sizeof contact_cards / sizeof *contact_cards), .read = reader, .remark = text              \
     }
-static const char self_remark[] =
-    "All nodes of the surface meet all its segments, from both sides; its free and sharp edges meet each other. SSID = "
-    "0: "
-    "all parts. SOFT 0, 1 and 2 are one stable penalty (theory, Contact). Initial penetrations are always tracked; "
-    "IGNORE = 2 lists them. LCIDAB: thickness over time.";
+static const char self_remark[] = "All nodes of the surface meet all its segments, from both sides; its free and sharp "
+                                  "edges meet all its edges. SSID "
+                                  "= 0: all parts. SOFT 0, 1 and 2 are one stable penalty (theory, Contact). Initial "
+                                  "penetrations are always tracked; "
+                                  "IGNORE = 2 lists them. LCIDAB: thickness over time.";
 static const char pair_remark[] =
     "The nodes of each surface meet the segments of the other, from both sides, and edges meet edges.";
 static const char one_remark[] = "The nodes of surface A meet the segments of surface B, from both sides.";
