@@ -185,7 +185,7 @@ typedef struct ContactLoop {
     bool search_due, pending;
     int64_t eroded_seen; /* shells that had eroded when the surfaces were last made; only if Model.has_erosion */
     unsigned char *mark; /* workspace of contact_erode (node_count); NULL without erosion */
-    int64_t cycle; /* counts contact_prepare */
+    int64_t cycle;       /* counts contact_prepare */
     ContactStep step;
     ContactGrid grid;
     ContactBox *box;    /* workspace of the search */
