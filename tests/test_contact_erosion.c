@@ -203,6 +203,23 @@ static void torn_panels(VerifyRun *run, ScenePattern pattern, int seam, const ch
     verify_scene(run, &scene, &(VerifyOptions){.every = 1});
 }
 
+/* Pairs of shells that go through each other, without those of two shells at the seam where its nodes lay at one place:
+ * these have no side before they part. */
+static int crossings_of_panels(const VerifyRun *run, bool at_one_place)
+{
+    unsigned char wanted[256];
+    MeshCrossings crossings;
+    assert_true(run->model.element_count <= 256);
+    for (int i = 0; i < run->model.element_count; i++) {
+        wanted[i] = 1;
+        for (int k = 0; k < 4 && at_one_place; k++)
+            if (run->model.initial[3 * run->model.element_node[4 * i + k]] < 0.5 * cell) wanted[i] = 0;
+    }
+    assert_int_equal(
+        mesh_find_crossings(run->model.element_count, run->model.element_node, run->internal_x, wanted, &crossings), 0);
+    return crossings.count;
+}
+
 static void torn_panels_hold_each_other(void **state)
 {
     (void)state;
@@ -214,7 +231,6 @@ static void torn_panels_hold_each_other(void **state)
         torn_panels(&through, patterns[i % 2], seam, "");
         const int second = run.model.node_count / 2;
         double least = INFINITY, met = INFINITY;
-        MeshCrossings crossings;
         for (int n = 0; n < second; n++) { /* rims may pass each other */
             if (run.model.initial[3 * run.model.deck_node[n]] < 1.5 * cell) continue;
             least = fmin(least, run.x[3 * (second + n) + 2] - run.x[3 * n + 2]);
@@ -227,10 +243,7 @@ static void torn_panels_hold_each_other(void **state)
         assert_int_equal(run.model.ties.count + run.model.seam_count, 5);
         verify_between("least gap without contact", met, -1, -0.005);
         verify_between("least gap", least, thickness, 1);
-        assert_int_equal(
-            mesh_find_crossings(run.model.element_count, run.model.element_node, run.internal_x, NULL, &crossings), 0);
-        /* nodes that lay at one place have no side until they part: a corner may then be on the wrong one */
-        verify_between("crossings", crossings.count, 0, seam ? 0 : 1);
+        verify_between("crossings", crossings_of_panels(&run, !seam), 0, 0);
         verify_near("momentum", momentum(&run, 0, 2) - momentum(&through, 0, 2), 0, 1e-9 * speed * mass_from(&run, 0));
         const VerifySample *last = &run.samples[run.count - 1];
         verify_near("energy balance at the end", (last->held - last->given) / run.energy, 0, 5e-3);
