@@ -24,12 +24,13 @@ typedef struct PathExtremes {
 static void make_sheet(const LawCase *l, ElementKind kind, Sheet *sheet)
 {
     int corners = kind == ELEMENT_TRIANGLE ? 3 : 4, size = geometry_size(kind, l->kind);
-    *sheet = (Sheet){.node = memory_alloc((size_t)ELEMENTS * CORNERS, sizeof(int32_t)),
-                     .geometry = memory_alloc((size_t)ELEMENTS * (size_t)size, sizeof(double)),
-                     .x = memory_alloc((size_t)ELEMENTS * CORNERS * 3, sizeof(double)),
-                     .reference = memory_alloc((size_t)ELEMENTS * CORNERS * 3, sizeof(double)),
-                     .history = memory_alloc((size_t)ELEMENTS * 32, sizeof(double)),
-                     .account = memory_alloc((size_t)ELEMENTS * ACCOUNT_SIZE, sizeof(double))};
+    *sheet = (Sheet){
+        .node = memory_alloc((size_t)ELEMENTS * CORNERS, sizeof(int32_t)),
+        .geometry = memory_alloc((size_t)ELEMENTS * (size_t)size, sizeof(double)),
+        .x = memory_alloc((size_t)ELEMENTS * CORNERS * 3 + 1, sizeof(double)), /* kernels read one value beyond */
+        .reference = memory_alloc((size_t)ELEMENTS * CORNERS * 3, sizeof(double)),
+        .history = memory_alloc((size_t)ELEMENTS * 32, sizeof(double)),
+        .account = memory_alloc((size_t)ELEMENTS * ACCOUNT_SIZE, sizeof(double))};
     sheet->group = (ElementGroup){.kind = kind,
                                   .law = l->kind,
                                   .corner_count = corners,
