@@ -58,6 +58,7 @@ bool law_stores_energy(LawKind kind, const FabricLaw *law)
 
 bool law_keeps_account(LawKind kind, const FabricLaw *law)
 {
+    if (law->damping > 0.0) return false;
     return kind == LAW_LOGARITHMIC || (kind == LAW_BIOT && law->no_compression);
 }
 

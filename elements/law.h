@@ -43,7 +43,8 @@ void law_rubber_moduli(const RubberLaw *rubber, FabricLaw *law);
 /* Is the energy a function of the strain alone? Else it is the summed work of the stress. */
 bool law_stores_energy(LawKind kind, const FabricLaw *law);
 
-/* Has the stress no energy of its own, so that accounts may limit what it gives back (eq. F7a)? */
+/* Has the stress no energy of its own and no damping that takes up what it feeds, so that accounts limit what it gives
+ * back (eq. F7a)? */
 bool law_keeps_account(LawKind kind, const FabricLaw *law);
 
 /* Are strain and stress of the last step kept, for the work or for damping? */

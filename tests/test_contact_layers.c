@@ -161,7 +161,9 @@ static void cross_strips(double pace, ScenePattern pattern)
                   (long)run.cycles, above / thickness);
     if (paced < 1) assert_true(above > 0);
     assert_true(paced > 1 || run.state.contact->lost == 0);
-    assert_true((run.state.contact->fast > 0) == (paced > 1));
+    /* a strip that is thrown back whips about and may meet the other faster than it fell */
+    bool at_the_hit = run.state.contact->fast > 0 && run.state.contact->fast_time < 0.5 * run.state.clock->time;
+    assert_true(at_the_hit == (paced > 1));
     verify_free(&run);
 }
 
