@@ -101,9 +101,16 @@ ALWAYS_INLINE Pack pack_where_positive(Pack x, Pack yes, Pack no)
 }
 #endif
 
+/* a < b ? a : b; b where either is not a number. */
 ALWAYS_INLINE Pack pack_smaller(Pack a, Pack b)
 {
-    return -pack_larger(-a, -b);
+#if BILLOW_KERNEL_LEVEL >= 4
+    return (Pack)_mm512_min_pd((__m512d)a, (__m512d)b);
+#elif BILLOW_KERNEL_LEVEL == 3
+    return (Pack)_mm256_min_pd((__m256d)a, (__m256d)b);
+#else
+    return (Pack)_mm_min_pd((__m128d)a, (__m128d)b);
+#endif
 }
 
 ALWAYS_INLINE Pack pack_absolute(Pack a)

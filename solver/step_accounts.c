@@ -5,7 +5,7 @@
 #include "elements/kernels.h"
 
 /* A chunk is let give so much of its equal part of what the loads have given, so that rounding opens no account. */
-static const double LIMIT = 1e-3;
+static const double LIMIT = 1e-2;
 
 enum { ACCOUNTS_CLOSED, ACCOUNTS_OPENING, ACCOUNTS_OPEN };
 
