@@ -90,15 +90,17 @@ ALWAYS_INLINE PackTensor stress_biot(int mode, const LawInput *in, const PointPl
                                      PackTensor t, Pack major, PointPack *p)
 {
     PackTensor s = pull_back_biot(t, f);
-    Pack reference = lane_values(place->tail, GEOMETRY_RATE);
-    Pack stretched = f->wide * reference;
-    /* a slack element may be taut in the next cycle: it has that frequency, at most twice the reference's (eq. E24) */
-    if (mode & MODE_TENSION_FIELD)
-        stretched = pack_where_positive(
-            major, stretched, pack_larger(pack_smaller(stretched, 4.0 * reference), in->law.slack_share * stretched));
+    Pack wide = f->wide;
+    if (mode & MODE_TENSION_FIELD) {
+        /* a slack element may be taut in the next cycle: it has that frequency, at most twice the reference's (eq.
+         * E24), or what its liner has */
+        Pack slack = pack_smaller(wide, pack_of(4.0));
+        if (mode & MODE_LINER) slack = pack_larger(slack, in->law.slack_share * wide);
+        wide = pack_where_positive(major, wide, slack);
+    }
     /* compression stiffens against rotation in the plane; only the cut-off takes it away */
     Pack bound = mode & MODE_TENSION_FIELD ? major_bound(s) : size_bound(s);
-    p->rate = stretched + bound * lane_values(place->tail, GEOMETRY_STRESS_RATE);
+    p->rate = wide * lane_values(place->tail, GEOMETRY_RATE) + bound * lane_values(place->tail, GEOMETRY_STRESS_RATE);
     return s;
 }
 
