@@ -1,4 +1,4 @@
-/* Reference geometries of the shells: which corners, from when on, with which step; and the mass that follows. */
+/* Reference geometries of the shells: which corners, from when on, with which step. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,21 +12,13 @@ enum { LISTED = 200 }; /* messages of one kind: the first ones tell what is wron
 
 static const char NODES[] = "*AIRBAG_REFERENCE_GEOMETRY", SHELLS[] = "*AIRBAG_SHELL_REFERENCE_GEOMETRY";
 
-/* Shells of a part whose reference is born after the start: their mass by the mesh, which counts, and as cut. */
-typedef struct LateMass {
-    double mesh, cut;
-    Source source; /* of the first one */
-    const char *keyword;
-} LateMass;
-
 /* What is being built. */
 typedef struct ReferenceBuild {
     Builder *b;
     ReferenceTable table;
     double birth; /* of all blocks with BIRTH: the last one read */
     ReferenceOrder order;
-    int *line;      /* of each shell its last line in the tables of panels, from 1; 0 none (shell_count) */
-    LateMass *late; /* (part_count) */
+    int *line; /* of each shell its last line in the tables of panels, from 1; 0 none (shell_count) */
 } ReferenceBuild;
 
 static void report(Builder *b, Source source, const char *keyword, int *listed, const char *format, ...)
@@ -316,83 +308,13 @@ static void drop_unused(Builder *b)
     }
 }
 
-/* The number of the pair of birth and RDT, from 1. */
-static int reference_class(Builder *b, double birth, bool rdt)
-{
-    for (size_t i = 0; i < b->reference_classes.count; i++)
-        if (b->reference_classes.items[i].birth == birth && b->reference_classes.items[i].rdt == rdt) return (int)i + 1;
-    if (memory_reserve((void **)&b->reference_classes.items, &b->reference_classes.capacity,
-                       b->reference_classes.count + 1, sizeof *b->reference_classes.items))
-        return -1;
-    b->reference_classes.items[b->reference_classes.count++] = (ReferenceClass){birth, rdt};
-    return (int)b->reference_classes.count;
-}
-
-/* Mass and area by the reference; the mass counts if the reference acts from the start (eq. R2). */
-static int finish_shell(ReferenceBuild *r, int i, int *listed)
-{
-    Builder *b = r->b;
-    ShellRecord *record = &b->records[i];
-    const ShellReference *reference = &b->references[i];
-    const PartRecord *part = &b->parts[record->part];
-    Part *sums = &b->model->parts[record->part];
-    if (!reference->given) return 0;
-    ElementInput input = {.kind = record->kind, .x = reference->x, .axis = record->axis, .law = &part->fabric};
-    GeometryStatus problem = geometry_check(&input);
-    if (problem != GEOMETRY_OK) {
-        report(b, reference->source, reference->keyword, listed, "element %d %s", b->definitions->shells.items[i].id,
-               problem == GEOMETRY_ZERO_AREA
-                   ? "has no area in the reference geometry: its nodes lie on a line or in one point there; correct "
-                     "their coordinates, or take the element out of both geometries"
-               : problem == GEOMETRY_INVERTED
-                   ? "is inverted in the reference geometry: its corners do not go round a convex quadrilateral; "
-                     "correct the coordinates or the order of its nodes"
-                   : "is normal to its fibre direction (AOPT) in the reference geometry; choose another direction");
-        return -1;
-    }
-    record->reference = reference_class(b, reference->birth, reference->rdt);
-    if (record->reference < 0) return -1;
-    double area = geometry_area(record->corner_count, reference->x);
-    double mass = area * (part->density * record->thickness + part->area_density);
-    sums->reference_count++;
-    sums->reference_area += area;
-    sums->reference_mass += mass;
-    sums->referred_area += record->area;
-    sums->referred_mass += record->mass;
-    if (reference->birth > 0.0) {
-        LateMass *late = &r->late[record->part];
-        if (!late->keyword) *late = (LateMass){.source = reference->source, .keyword = reference->keyword};
-        late->mesh += record->mass;
-        late->cut += mass;
-        return 0;
-    }
-    sums->mass += mass - record->mass;
-    record->mass = mass;
-    return 0;
-}
-
-/* Cloth that is born later keeps the mesh's mass: of a strongly shrunken one a small share of its own. */
-static void warn_of_light_cloth(const ReferenceBuild *r)
-{
-    for (int p = 0; p < r->b->model->part_count; p++) {
-        const LateMass *late = &r->late[p];
-        if (!(late->mesh < 0.5 * late->cut)) continue;
-        diagnostics_add(r->b->diagnostics, SEVERITY_WARNING, late->source, late->keyword,
-                        "part %d weighs %.4g for the whole run, by the mesh, because its reference is born after the "
-                        "start; as cut it weighs %.4g: so light a cloth flutters and takes short steps; without BIRTH "
-                        "and RGBRTH it has the weight as cut",
-                        r->b->model->parts[p].id, late->mesh, late->cut);
-    }
-}
-
 int build_reference(Builder *b)
 {
     const Definitions *d = b->definitions;
     if (d->reference_blocks.count == 0) return 0;
     ReferenceBuild r = {.b = b};
     b->references = memory_alloc((size_t)b->shell_count + 1, sizeof *b->references);
-    r.late = memory_alloc((size_t)b->model->part_count + 1, sizeof *r.late);
-    int status = b->references && r.late && !reference_table_build(d, &r.table) ? 0 : -1, listed = 0;
+    int status = b->references && !reference_table_build(d, &r.table) ? 0 : -1;
     if (!status) {
         for (size_t i = 0; i < d->reference_blocks.count; i++)
             if (d->reference_blocks.items[i].has_birth) r.birth = d->reference_blocks.items[i].birth;
@@ -401,14 +323,11 @@ int build_reference(Builder *b)
         if (take_shells(&r)) status = -1;
         drop_unused(b);
         warn_of_partial_shells(&r);
-        for (int i = 0; i < b->shell_count; i++)
-            if (finish_shell(&r, i, &listed)) status = -1;
-        warn_of_light_cloth(&r);
+        if (build_reference_mass(b)) status = -1;
     }
     reference_table_free(&r.table);
     reference_order_free(&r.order);
     memory_free(r.line);
-    memory_free(r.late);
     return status;
 }
 

@@ -116,15 +116,16 @@ int material_curve(Builder *builder, const MaterialDefinition *material, const c
 double beam_area(const SectionBeamDefinition *section);
 
 /* The stages, in order; 0, or -1 after reporting an error. Later stages need earlier ones to have succeeded. */
-int build_parts(Builder *builder);     /* materials, sections -> laws */
-int build_shells(Builder *builder);    /* shells -> records, masses */
-int build_reference(Builder *builder); /* reference geometries; masses by them; after build_shells */
-int check_reference(Builder *builder); /* its nodes alone, where earlier stages have failed */
-int build_links(Builder *builder);     /* beams, springs, cables -> links, masses of nodes; after build_shells */
-int build_link_ends(Builder *builder); /* which links share an end, and its mass; after build_renumber */
-int build_solids(Builder *builder);    /* solids -> masses of their nodes; after build_shells */
-int build_curves(Builder *builder);    /* and functions */
-int build_functions(Builder *builder); /* by build_curves */
+int build_parts(Builder *builder);          /* materials, sections -> laws */
+int build_shells(Builder *builder);         /* shells -> records, masses */
+int build_reference(Builder *builder);      /* reference geometries; masses by them; after build_shells */
+int build_reference_mass(Builder *builder); /* their classes, areas and masses; by build_reference */
+int check_reference(Builder *builder);      /* its nodes alone, where earlier stages have failed */
+int build_links(Builder *builder);          /* beams, springs, cables -> links, masses of nodes; after build_shells */
+int build_link_ends(Builder *builder);      /* which links share an end, and its mass; after build_renumber */
+int build_solids(Builder *builder);         /* solids -> masses of their nodes; after build_shells */
+int build_curves(Builder *builder);         /* and functions */
+int build_functions(Builder *builder);      /* by build_curves */
 void renumber_functions(Builder *builder, const int32_t *new_index); /* by build_renumber */
 int build_spline(Builder *builder, int curve); /* index of a curve's points as a cubic spline; -1 without memory */
 int build_surfaces(Builder *builder);          /* airbags' surfaces: orientation and caps */
