@@ -160,25 +160,13 @@ ALWAYS_INLINE Pack quad_work(int mode, const LawInput *in, const ElementPlace *p
     return (0.25 * in->count_work) * quad_contract(mode, &sum, change);
 }
 
-/* Lets the share of the stress act that the account allows (eq. F7b). */
-typedef struct QuadAccount {
-    Pack psi, damping; /* energy of the straight path; work of DAMP in the step */
-} QuadAccount;
-
-ALWAYS_INLINE QuadAccount quad_limit(int mode, const LawInput *in, const ElementPlace *place,
-                                     const QuadProducts *metric, const QuadProducts *change, const PointPack *p,
-                                     QuadProducts *stress)
+/* Lets the share of the stress act that the account allows (eq. F7b). Returns the energy of the straight path. */
+ALWAYS_INLINE Pack quad_limit(int mode, const LawInput *in, const ElementPlace *place, const QuadProducts *metric,
+                              const QuadProducts *change, const PointPack *p, QuadProducts *stress)
 {
-    Pack trace = (p[0].trace + p[1].trace) + (p[2].trace + p[3].trace), damping = pack_of(0.0);
-    Pack drive = quad_contract(mode, stress, change), path = quad_contract(mode, stress, metric) - trace;
-    if (in->law.damping > 0.0) {
-        damping = (p[0].damping_drive + p[1].damping_drive) + (p[2].damping_drive + p[3].damping_drive);
-        drive -= damping;
-        path -= (p[0].damping_path + p[1].damping_path) + (p[2].damping_path + p[3].damping_path);
-    }
-    QuadAccount account = {.psi = 0.25 * path};
-    Pack share = acting_share(in, place->account, account.psi, 0.5 * drive);
-    account.damping = (0.5 * in->count_work) * share * damping;
+    Pack trace = (p[0].trace + p[1].trace) + (p[2].trace + p[3].trace);
+    Pack psi = 0.25 * (quad_contract(mode, stress, metric) - trace);
+    Pack share = acting_share(in, place->account, psi, 0.5 * quad_contract(mode, stress, change));
     stress->aa *= share;
     stress->bb *= share;
     stress->ab *= share;
@@ -186,7 +174,7 @@ ALWAYS_INLINE QuadAccount quad_limit(int mode, const LawInput *in, const Element
     stress->bh *= share;
     stress->hh *= share;
     stress->qq *= share;
-    return account;
+    return psi;
 }
 
 ALWAYS_INLINE QuadProducts change_of_products(int mode, const ElementPlace *place, const QuadProducts *of)
@@ -246,8 +234,8 @@ ALWAYS_INLINE void quad_full_pack(int mode, const KernelInput *input, const LawI
     }
     natural_stress(mode, false, in, QUAD_POINTS, point, p);
     QuadProducts stress = quad_stresses(mode, p);
-    QuadAccount account;
-    if (mode & MODE_ACCOUNT) account = quad_limit(mode, in, &place, &metric, &change, p, &stress);
+    Pack psi = pack_of(0.0);
+    if (mode & MODE_ACCOUNT) psi = quad_limit(mode, in, &place, &metric, &change, p, &stress);
     quad_stress_forces(mode, &stress, &q);
     quad_area(lane_values(place.tail, GEOMETRY_SIGN), pack, &q, sums);
     quad_add(input, &place, &q);
@@ -256,7 +244,7 @@ ALWAYS_INLINE void quad_full_pack(int mode, const KernelInput *input, const LawI
     p[0].viscous = pack_of(0.0);
     if (KEEPS_HISTORY(mode, in)) {
         Pack work = quad_work(mode, in, &place, &change, &stress);
-        if (mode & MODE_ACCOUNT) keep_account(in, place.account, account.psi, work - account.damping);
+        if (mode & MODE_ACCOUNT) keep_account(in, place.account, psi, work);
         if (energy_is_work)
             p[0].energy = work;
         else

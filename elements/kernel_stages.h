@@ -32,7 +32,7 @@ enum {
     MODE_LINER = 4,
     MODE_HISTORY = 8,      /* strain and stress of the last step are kept: stress-work ledger, damping */
     MODE_LOGARITHMIC = 16, /* with MODE_BIOT neither: Green */
-    MODE_ACCOUNT = 32,     /* stresses give back at most what they got */
+    MODE_ACCOUNT = 32,     /* stresses give back at most what they got; without DAMP */
 };
 
 /* Where the constants and histories of one pack of points lie. */
@@ -50,9 +50,7 @@ typedef struct PointPack {
     PackTensor change; /* of c since the last step; where there are four points only with DAMP */
     PackTensor p;      /* weight x M S M^T, the stress in natural directions */
     Pack energy, viscous, rate;
-    /* where an element of several points keeps an account, weight x: tr S; of the stress of DAMP alone, V : change of C
-     * and V : (C - 1) */
-    Pack trace, damping_drive, damping_path;
+    Pack trace; /* weight x tr S, where an element of several points keeps an account */
 } PointPack;
 
 ALWAYS_INLINE Pack lane_values(const double *from, int quantity)
@@ -169,7 +167,7 @@ ALWAYS_INLINE Pack acting_share(const LawInput *in, double *account, Pack psi, P
     return share;
 }
 
-/* work: of the step, without that of DAMP. */
+/* work: of the step. */
 ALWAYS_INLINE void keep_account(const LawInput *in, double *account, Pack psi, Pack work)
 {
     pack_store(account, in->new_account ? psi : pack_load(account) + work);
@@ -194,19 +192,11 @@ ALWAYS_INLINE PackTensor keep_history(int mode, bool energy_is_work, const LawIn
         Pack drive = 0.5 * weight * contract(s, change);
         s = scale_tensor(acting_share(in, place->account, psi, drive), s);
     }
-    PackTensor elastic = s;
     s = add_damping(in, place, change, s);
     PackTensor sum = {sum_with_last(s.a11, place->stress), sum_with_last(s.a22, place->stress + LANES),
                       sum_with_last(s.a12, place->stress + 2 * LANES)};
     Pack work = (0.25 * in->count_work) * weight * contract(sum, change);
-    if (mode & MODE_ACCOUNT) {
-        Pack given = work;
-        if (in->law.damping > 0.0) {
-            PackTensor viscous = add_tensors(s, scale_tensor(pack_of(-1.0), elastic));
-            given -= (0.5 * in->count_work) * weight * contract(viscous, change);
-        }
-        keep_account(in, place->account, psi, given);
-    }
+    if (mode & MODE_ACCOUNT) keep_account(in, place->account, psi, work);
     if (energy_is_work)
         p->energy = work;
     else
@@ -219,18 +209,8 @@ ALWAYS_INLINE PackTensor with_history(int mode, bool one_point, bool energy_is_w
                                       const PointPlace *place, PackTensor s, PointPack *p)
 {
     if (one_point) return keep_history(mode, energy_is_work, in, place, s, p);
-    PackTensor all = add_damping(in, place, p->change, s);
-    if (mode & MODE_ACCOUNT) {
-        Pack weight = lane_values(place->point, GEOMETRY_WEIGHT);
-        p->trace = weight * (all.a11 + all.a22);
-        p->damping_drive = p->damping_path = pack_of(0.0);
-        if (in->law.damping > 0.0) {
-            PackTensor viscous = add_tensors(all, scale_tensor(pack_of(-1.0), s));
-            p->damping_drive = weight * contract(viscous, p->change);
-            p->damping_path = weight * (contract(viscous, p->c) - (viscous.a11 + viscous.a22));
-        }
-    }
-    return all;
+    if (mode & MODE_ACCOUNT) p->trace = lane_values(place->point, GEOMETRY_WEIGHT) * (s.a11 + s.a22);
+    return add_damping(in, place, p->change, s);
 }
 
 /* FORM 0 and 1 (eq. F1 to F7) from C to the natural stress: a stage for each root. count: known where this is

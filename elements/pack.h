@@ -51,12 +51,6 @@ ALWAYS_INLINE void pack_store_single(float *to, Pack value)
     *(PackFloat *)(void *)to = __builtin_convertvector(value, PackFloat);
 }
 
-/* 1/x to single precision. */
-ALWAYS_INLINE Pack pack_reciprocal_single(Pack x)
-{
-    return __builtin_convertvector(1.0F / __builtin_convertvector(x, PackFloat), Pack);
-}
-
 /* a > b ? a : b; b where either is not a number. pack_root: square root. pack_where_positive: x > 0 ? yes : no. */
 #if BILLOW_KERNEL_LEVEL >= 4
 ALWAYS_INLINE Pack pack_larger(Pack a, Pack b)

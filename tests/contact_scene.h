@@ -125,4 +125,16 @@ static inline void scene_drape(Scene *scene, bool self)
     scene_end(deck, mesh);
 }
 
+/* Mean velocity of the nodes [first, end). */
+static inline double mean_speed(const VerifyRun *run, int first, int end, int axis)
+{
+    double sum = 0, mass = 0;
+    for (int i = first; i < end; i++) {
+        double m = run->model.mass[run->model.deck_node[i]];
+        sum += m * run->v[3 * i + axis];
+        mass += m;
+    }
+    return sum / mass;
+}
+
 #endif

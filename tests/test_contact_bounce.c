@@ -41,18 +41,6 @@ static void check_end(const VerifyRun *run, double tolerance)
     verify_near("energy balance at the end", (last->held - last->given) / run->energy, 0, tolerance);
 }
 
-/* Mean velocity of the nodes [first, end). */
-static double mean_speed(const VerifyRun *run, int first, int end, int axis)
-{
-    double sum = 0, mass = 0;
-    for (int i = first; i < end; i++) {
-        double m = run->model.mass[run->model.deck_node[i]];
-        sum += m * run->v[3 * i + axis];
-        mass += m;
-    }
-    return sum / mass;
-}
-
 /* A loose sheet flies onto a fixed plate and off again: elastic contact gives its speed back. */
 static void bounce_with(ScenePattern pattern, const SceneContact *card, double expected, double tolerance)
 {

@@ -203,17 +203,6 @@ static void momentum_is_kept(void **state)
     patch_on(9, sphere, 0.3, 20, 2);
 }
 
-static double mean_speed(const VerifyRun *run, int first, int end, int axis)
-{
-    double sum = 0, mass = 0;
-    for (int i = first; i < end; i++) {
-        double m = run->model.mass[run->model.deck_node[i]];
-        sum += m * run->v[3 * i + axis];
-        mass += m;
-    }
-    return sum / mass;
-}
-
 /* A sheet slides on the plane of a fixed part: mu g slows it down, and holds it where the pull is less. */
 static void slide(double friction, double speed, double pull, double expected)
 {

@@ -9,6 +9,16 @@
 
 #include "tests/contact_scene.h"
 
+/* The pieces after the first, each a new time loop from the state alone; the hash of the last state. */
+static uint64_t finish_in_pieces(VerifyRun *run, int cycles, int pieces)
+{
+    for (int i = 2; i <= pieces; i++) {
+        run->options.stop = cycles * i / pieces;
+        if (verify_loop(run)) fail_msg("%s", run->failure.cause);
+    }
+    return state_hash(&run->state);
+}
+
 static uint64_t run_in_pieces(int pieces, int threads, int every)
 {
     enum { CYCLES = 480 };
@@ -17,11 +27,7 @@ static uint64_t run_in_pieces(int pieces, int threads, int every)
     scene_crumple(&scene);
     VerifyOptions options = {.threads = threads, .stop = CYCLES / pieces, .every = every, .energy_limit = 1e9};
     verify_scene(&run, &scene, &options);
-    for (int i = 2; i <= pieces; i++) {
-        run.options.stop = CYCLES * i / pieces;
-        if (verify_loop(&run)) fail_msg("%s", run.failure.cause);
-    }
-    uint64_t hash = state_hash(&run.state);
+    uint64_t hash = finish_in_pieces(&run, CYCLES, pieces);
     print_message("    %d pieces, %d threads: %d pairs in contact, contact %.1f %% of the energy, %016llx\n", pieces,
                   threads, (int)run.state.contact_memories[0],
                   100 * run.state.energy->contact / run.state.energy->largest, (unsigned long long)hash);
@@ -48,11 +54,7 @@ static uint64_t drape_in_pieces(bool self, int pieces, int threads, int every)
     scene_drape(&scene, self);
     VerifyOptions options = {.threads = threads, .stop = CYCLES / pieces, .every = every, .energy_limit = 1e9};
     verify_scene(&run, &scene, &options);
-    for (int i = 2; i <= pieces; i++) {
-        run.options.stop = CYCLES * i / pieces;
-        if (verify_loop(&run)) fail_msg("%s", run.failure.cause);
-    }
-    uint64_t hash = state_hash(&run.state);
+    uint64_t hash = finish_in_pieces(&run, CYCLES, pieces);
     int held = 0;
     for (size_t p = 0; p < run.model.entity_probe_count; p++) held += run.state.entity_memory[p].side != 0;
     print_message("    entities, %d pieces, %d threads: %d probes in contact, contact %.1f %% of the energy, %016llx\n",

@@ -12,15 +12,7 @@
 #include "contact/convex_hull.h"
 #include "examples/scene.h"
 #include "solver/vector3.h"
-
-static double random_number(double low, double high)
-{
-    static uint64_t state = 88172645463325252u;
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return low + (high - low) * (double)(state >> 11) / 9007199254740992.0;
-}
+#include "tests/ccd_ball.h"
 
 static HullKind make(const SceneMesh *mesh, int count, ConvexHull *hull)
 {
@@ -73,10 +65,6 @@ static void boxes(void **state)
     scene_mesh_free(&mesh);
 }
 
-typedef struct Ball {
-    double centre[3], radius;
-} Ball;
-
 static void support_hull(const void *object, const ccd_vec3_t *direction, ccd_vec3_t *point)
 {
     const ConvexHull *hull = object;
@@ -86,24 +74,6 @@ static void support_hull(const void *object, const ccd_vec3_t *direction, ccd_ve
         if (along > most) memcpy(point->v, hull->corner + 3 * c, sizeof point->v);
         most = fmax(most, along);
     }
-}
-
-static void support_ball(const void *object, const ccd_vec3_t *direction, ccd_vec3_t *point)
-{
-    const Ball *ball = object;
-    double size = vector3_norm(direction->v);
-    for (int k = 0; k < 3; k++) point->v[k] = ball->centre[k] + (size > 0 ? ball->radius * direction->v[k] / size : 0);
-}
-
-static void middle_of_hull(const void *object, ccd_vec3_t *middle)
-{
-    (void)object;
-    ccdVec3Set(middle, 0, 0, 0);
-}
-
-static void middle_of_ball(const void *object, ccd_vec3_t *middle)
-{
-    memcpy(middle->v, ((const Ball *)object)->centre, sizeof middle->v);
 }
 
 /* Outside the radius from which on a ball meets the hull is the distance; inside libccd's way out is no shorter. */
@@ -126,7 +96,7 @@ static void against_libccd(void **state)
         CCD_INIT(&ccd);
         ccd.support1 = support_hull;
         ccd.support2 = support_ball;
-        ccd.center1 = middle_of_hull;
+        ccd.center1 = middle_at_origin;
         ccd.center2 = middle_of_ball;
         ccd.mpr_tolerance = 1e-12;
         ccd.max_iterations = 10000;

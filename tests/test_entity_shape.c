@@ -12,15 +12,7 @@
 
 #include "contact/contact_entity.h"
 #include "solver/vector3.h"
-
-static double random_number(double low, double high)
-{
-    static uint64_t state = 88172645463325252u;
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return low + (high - low) * (double)(state >> 11) / 9007199254740992.0;
-}
+#include "tests/ccd_ball.h"
 
 /* The farthest point of a bounded shape in a direction. */
 static void support_shape(const void *object, const ccd_vec3_t *direction, ccd_vec3_t *point)
@@ -37,37 +29,13 @@ static void support_shape(const void *object, const ccd_vec3_t *direction, ccd_v
     for (int k = 0; k < 3; k++) p[k] = sum > 0 ? e->size[k] * e->size[k] * d[k] / sqrt(sum) : 0;
 }
 
-/* A ball about a probe. */
-typedef struct Ball {
-    double centre[3], radius;
-} Ball;
-
-static void support_ball(const void *object, const ccd_vec3_t *direction, ccd_vec3_t *point)
-{
-    const Ball *ball = object;
-    double size = vector3_norm(direction->v);
-    for (int k = 0; k < 3; k++) point->v[k] = ball->centre[k] + (size > 0 ? ball->radius * direction->v[k] / size : 0);
-}
-
-static void middle_of_shape(const void *object, ccd_vec3_t *middle)
-{
-    (void)object;
-    ccdVec3Set(middle, 0, 0, 0);
-}
-
-static void middle_of_ball(const void *object, ccd_vec3_t *middle)
-{
-    const Ball *ball = object;
-    ccdVec3Set(middle, ball->centre[0], ball->centre[1], ball->centre[2]);
-}
-
 static ccd_t prepare(void)
 {
     ccd_t ccd;
     CCD_INIT(&ccd);
     ccd.support1 = support_shape;
     ccd.support2 = support_ball;
-    ccd.center1 = middle_of_shape;
+    ccd.center1 = middle_at_origin;
     ccd.center2 = middle_of_ball;
     ccd.mpr_tolerance = 1e-12;
     ccd.max_iterations = 10000;
