@@ -140,12 +140,12 @@ double geometry_rate(const ElementInput *input)
     return geometry_largest_eigenvalue(2 * corners, k) * corners / input->mass;
 }
 
-/* Largest eigenvalue of the geometric stiffness of a point under a unit of all-round tension (G of eq. E21, E22): of
- * sum g g over the material axes, and of the fold's share along q. */
-static double stress_spread(const ElementInput *input, int point, const double m[4])
+/* Geometric stiffness of a point under a unit of all-round tension, k (corners x corners): sum g g over the material
+ * axes, and the fold's share along q. */
+static void point_spread(const ElementInput *input, int point, const double m[4], double *k)
 {
     int corners = input->kind == ELEMENT_TRIANGLE ? 3 : 4;
-    double g[4][2], k[16], q[4] = {0}, fold = 0.0;
+    double g[4][2], q[4] = {0}, fold = 0.0;
     shape_gradients(input->kind, point, m, g);
     if (point_has_fold(input)) {
         const double xi_a[4] = {-1, 1, 1, -1}, eta_a[4] = {-1, -1, 1, 1};
@@ -158,7 +158,36 @@ static double stress_spread(const ElementInput *input, int point, const double m
     for (int a = 0; a < corners; a++)
         for (int b = 0; b < corners; b++)
             k[corners * a + b] = g[a][0] * g[b][0] + g[a][1] * g[b][1] + fold * q[a] * q[b];
-    return geometry_largest_eigenvalue(corners, k);
+}
+
+/* Its largest eigenvalue, G of eq. E21 and E22. */
+static double stress_spread(const ElementInput *input, int point, const double m[4])
+{
+    double k[16];
+    point_spread(input, point, m, k);
+    return geometry_largest_eigenvalue(input->kind == ELEMENT_TRIANGLE ? 3 : 4, k);
+}
+
+/* Largest eigenvalue of the moduli as a map of symmetric tensors: the shear strain counts twice in their square. */
+static double largest_modulus(const PlaneModuli *d)
+{
+    double mean = 0.5 * (d->d11 + d->d22), half = 0.5 * (d->d11 - d->d22);
+    double normal = mean + sqrt(half * half + d->d12 * d->d12);
+    return fmax(normal, 2.0 * d->d33);
+}
+
+int geometry_gradient_stiffness(const ElementInput *input, double *k)
+{
+    int corners = input->kind == ELEMENT_TRIANGLE ? 3 : 4;
+    double modulus = largest_modulus(&input->law->whole);
+    for (int i = 0; i < corners * corners; i++) k[i] = 0.0;
+    for (int p = 0; p < point_number(input->kind); p++) {
+        double m[4], area, spread[16];
+        if (point_gradients(input, p, m, &area) != GEOMETRY_OK) return -1;
+        point_spread(input, p, m, spread);
+        for (int i = 0; i < corners * corners; i++) k[i] += modulus * area * input->thickness * spread[i];
+    }
+    return 0;
 }
 
 GeometryStatus geometry_check(const ElementInput *input)

@@ -43,6 +43,10 @@ double geometry_area(int corner_count, const double *x);
  * E20): exact for triangles and quads. */
 double geometry_rate(const ElementInput *input);
 
+/* A stiffness that is the same for each component of the corners' displacements, k (corners x corners, row-major), and
+ * not less than the element's in any direction (eq. T15); not for one-point quads. -1 for degenerate elements. */
+int geometry_gradient_stiffness(const ElementInput *input, double *k);
+
 /* The largest eigenvalue of a symmetric n x n matrix (row-major, destroyed), n <= 12, by Jacobi rotations. */
 double geometry_largest_eigenvalue(int n, double *matrix);
 

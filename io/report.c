@@ -273,6 +273,11 @@ void report_write_steps(const Model *model, int limit, FILE *stream)
         const double mesh = element_steps_mesh(model);
         fprintf(stream, "  of the mesh, whose nodes share their elements: %.6g; times the scale factor %.4g: %.6g\n",
                 mesh, model->step_scale, model->step_scale * mesh);
+        if (model->implicit.element_count > 0)
+            fprintf(stream,
+                    "  %d of %d elements are much smaller than the rest and are integrated implicitly; with "
+                    "--all-explicit the\n  mesh would have %.6g\n",
+                    model->implicit.element_count, model->deformable_count, model->implicit.explicit_step);
         fprintf(stream, "  smallest of an element by itself: %.6g in element %d\n", list[0].step,
                 model->element_id[list[0].element]);
         fprintf(stream, "  %10s %10s %14s\n", "element", "part", "step");

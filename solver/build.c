@@ -125,8 +125,17 @@ static void builder_free(Builder *b)
     memory_free(b->contacts);
     motion_free(&b->motion);
     deck_index_free(&b->index);
-    void *blocks[] = {b->x,     b->mass,      b->records,   b->parts,      b->closures,
-                      b->order, b->wall_node, b->link_mass, b->references, b->reference_classes.items};
+    void *blocks[] = {b->x,
+                      b->mass,
+                      b->records,
+                      b->parts,
+                      b->closures,
+                      b->order,
+                      b->wall_node,
+                      b->link_mass,
+                      b->references,
+                      b->implicit,
+                      b->reference_classes.items};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
 }
 

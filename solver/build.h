@@ -13,6 +13,7 @@ typedef struct BuildOptions {
     const char *sensor_library; /* shared library with the user's sensor (RBID > 0), NULL none */
     bool relax;                 /* --relax: static equilibrium before the run */
     bool relaxation_phase;      /* the model of that phase: curves with SIDR = 1 or 2 act, those with 0 do not */
+    bool all_explicit;          /* no small elements are integrated implicitly */
     double energy_error_limit;  /* > 0: stop beyond this share in place of 0.1 */
 } BuildOptions;
 

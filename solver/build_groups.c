@@ -92,8 +92,7 @@ static const char *geometry_problem(GeometryStatus status)
     return "";
 }
 
-/* Kernel input of one record; x receives the corners in the mesh. */
-static ElementInput record_input(const Builder *b, int record, const double *positions, Geometry which, double *x)
+ElementInput record_input(const Builder *b, int record, const double *positions, Geometry which, double *x)
 {
     const ShellRecord *r = &b->records[record];
     for (int a = 0; a < r->corner_count; a++)
@@ -228,7 +227,7 @@ int build_groups(Builder *b)
         status |= filled;
         first += m->groups[g].element_count;
     }
-    return status || build_node_shares(b) || build_rows(b) ? -1 : 0;
+    return status || build_implicit(b) || build_rows(b) ? -1 : 0;
 }
 
 /* The largest squared frequency of an element: before and after the birth of its reference geometry, with its initial

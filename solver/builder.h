@@ -88,12 +88,17 @@ typedef struct Builder {
     struct ContactSurfaces *contacts; /* (contact count), solver/build_contact.h */
     SurfaceClosure *closures;         /* (airbag count), nodes in deck order until build_renumber */
     double **constants;               /* of each group by Geometry (group count x GEOMETRY_COUNT), NULL where unused */
+    unsigned char *implicit;          /* of each record: 1 it is integrated implicitly (record_count); NULL: none is */
     int32_t *order;                   /* element order: order[k] = record of the k-th element in group order */
 } Builder;
 
 /* A zeroed block that model_free releases; NULL without memory (reported as an environment error). */
 void *builder_alloc(Builder *builder, size_t count, size_t size);
 int builder_adopt(Builder *builder, void *block);
+
+/* Kernel input of one record, by positions of all nodes (x 3); x (12) receives the corners in the mesh, which the input
+ * points to. */
+ElementInput record_input(const Builder *builder, int record, const double *positions, Geometry which, double *x);
 
 /* The section of this number and its place in its list (-1 if there is none). */
 SectionKind part_section(const Definitions *definitions, int id, int *place);
@@ -137,11 +142,14 @@ int build_output(Builder *builder);            /* termination, step control, out
 int build_mass_scaling(Builder *builder);      /* DT2MS */
 int build_renumber(Builder *builder);          /* node and element order for locality */
 int build_groups(Builder *builder);            /* blocks, kernel constants */
-int build_node_shares(Builder *builder);       /* bound of the mesh's frequency; by build_groups */
-int build_rows(Builder *builder);              /* segments and rows of corner sums */
-int build_walls(Builder *builder);             /* rigid walls and their nodes; after build_shells */
-int build_wall_nodes(Builder *builder);        /* the same in the model's order; after build_renumber */
-int build_jets(Builder *builder);              /* after build_groups */
+int build_implicit(Builder *builder);          /* which small elements are implicit, their factor; by build_groups */
+struct NodeRates;
+void build_node_shares(Builder *builder, struct NodeRates *rates); /* bound of the mesh's frequency; by build_implicit;
+                                                                      rates: workspace, solver/node_rates.h */
+int build_rows(Builder *builder);                                  /* segments and rows of corner sums */
+int build_walls(Builder *builder);                                 /* rigid walls and their nodes; after build_shells */
+int build_wall_nodes(Builder *builder);                        /* the same in the model's order; after build_renumber */
+int build_jets(Builder *builder);                              /* after build_groups */
 void mark_jet_nodes(Builder *builder, unsigned char *special); /* by build_renumber: NREACT */
 int build_sensors(Builder *builder);                           /* after the motion is taken over */
 int build_seams(Builder *builder);                             /* seams; after build_shells and lumping */

@@ -27,6 +27,7 @@
 #include "solver/curve.h"
 #include "solver/diagnostics.h"
 #include "solver/function.h"
+#include "solver/implicit_elements.h"
 #include "solver/loads.h"
 #include "solver/relax_control.h"
 #include "solver/rigid_body.h"
@@ -244,6 +245,8 @@ typedef struct Model {
         entity_skin; /* mean side of the shells: how far nodes go until what is stiff at them is looked at anew [L] */
     size_t contact_edge_size;   /* entries of State.contact_sharp */
     size_t contact_memory_size; /* entries of State.contact_memory */
+
+    ImplicitElements implicit;
 
     double end_time, step_scale, step_initial, step_minimum; /* ENDTIM, TSSFAC, DTINIT, DTMIN */
     bool caps_push_rim;                                      /* hole caps give their pressure force to their rim */

@@ -138,6 +138,13 @@ static int set_relax(Options *options, const char *value)
     return 0;
 }
 
+static int set_all_explicit(Options *options, const char *value)
+{
+    (void)value;
+    options->build.all_explicit = true;
+    return 0;
+}
+
 static int set_caps_push(Options *options, const char *value)
 {
     (void)value;
@@ -153,6 +160,7 @@ static const OptionName option_names[] = {
     {"-q", "--quiet", false, false, set_quiet},
     {NULL, "--one-point-quads", false, true, set_one_point},
     {NULL, "--caps-push-rim", false, true, set_caps_push},
+    {NULL, "--all-explicit", false, true, set_all_explicit},
     {NULL, "--relax", false, true, set_relax},
     {NULL, "--energy-error-limit", true, true, read_energy_limit},
     {NULL, "--sensor-library", true, true, read_sensor_library},

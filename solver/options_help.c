@@ -18,6 +18,7 @@ static const char run_help[] =
     "      --restart FILE      goes on from a checkpoint (DIR/restart.billow) of the same deck\n"
     "  -q, --quiet             no progress, only messages and the last line\n"
     "      --one-point-quads   4-node elements with one point and hourglass control: faster, less accurate\n"
+    "      --all-explicit      the smallest elements set the step, none is integrated implicitly\n"
     "      --caps-push-rim     flat caps over the bag's holes give their pressure force to the rim\n"
     "      --relax             starts from the static equilibrium under the loads and bag pressures of time 0\n"
     "      --energy-error-limit X   stop when the energy balance is lost by more than this share (0.1)\n"
@@ -56,7 +57,7 @@ void options_print_help(Command command, FILE *stream)
         fputs(run_help, stream);
     } else if (command == COMMAND_CHECK_HELP) {
         fputs("usage: billow check DECK [--end-time T] [--one-point-quads] [--caps-push-rim]\n"
-              "                         [--relax] [--sensor-library FILE]\n"
+              "                         [--all-explicit] [--relax] [--sensor-library FILE]\n"
               "\n"
               "Reads and validates a deck and reports parts, masses, bags with volume, holes and gas, the stable\n"
               "time step with its element, and every field that is read but not used. Runs no steps, writes no file.\n"

@@ -128,6 +128,8 @@ static int allocate(Workspace *w)
     w->tie_strain = memory_alloc((size_t)m->ties.slot_count + 1, sizeof(double));
     w->tie_volume = memory_alloc((size_t)m->ties.slot_count + 1, sizeof(double));
     w->gas_pass = memory_alloc(((size_t)w->node_chunk_count + 1) * bags, sizeof *w->gas_pass);
+    w->implicit = memory_alloc(7 * (size_t)m->implicit.node_count + 1, sizeof(double));
+    w->implicit_before = memory_alloc(m->implicit.node_count > 0 ? nodes : 1, sizeof(double));
     size_t walls = (size_t)m->wall_count;
     w->walls = memory_alloc(walls + 1, sizeof *w->walls);
     w->wall_sums = memory_alloc(walls * ((size_t)w->node_chunk_count + 1) + 1, sizeof *w->wall_sums);
@@ -140,7 +142,7 @@ static int allocate(Workspace *w)
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
                       w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
                       w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume,    w->reference_jump,
-                      w->tie_strain,    w->tie_volume};
+                      w->tie_strain,    w->tie_volume,     w->implicit,     w->implicit_before};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!needed[i]) return -1;
     return step_share_allocate(w) || step_functions_allocate(w) || step_jets_allocate(w) || step_erosion_allocate(w)
@@ -158,7 +160,7 @@ static void release(Workspace *w)
                       w->special_kind,  w->lane_rate,      w->kept_history, w->gas_pass,        w->drag,
                       w->newton,        w->walls,          w->wall_sums,    w->wall_pending,    w->wall_force,
                       w->group_area,    w->part_area,      w->part_blocked, w->fluid_volume,    w->reference_jump,
-                      w->tie_strain,    w->tie_volume};
+                      w->tie_strain,    w->tie_volume,     w->implicit,     w->implicit_before};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
     reference_work_free(w->model, &w->reference);
     memory_free(w->segment_middle);
@@ -240,6 +242,10 @@ static void loop(void *context, int thread, Team *team)
             step_gas_pass(w, thread, threads);
             team_barrier(team);
             if (thread == 0) step_gas_implicit(w);
+            team_barrier(team);
+        }
+        if (w->model->implicit.element_count > 0) {
+            if (thread == 0) step_implicit(w);
             team_barrier(team);
         }
         if (thread == 0 && !w->model->has_moving_walls) step_special(w);

@@ -25,6 +25,7 @@ static NodeSums sum_nodes(const Workspace *w)
         t.bag_before += w->jet_sums[c].before;
         t.bag_after += w->jet_sums[c].after;
     }
+    if (w->model->implicit.element_count > 0) step_implicit_energy(w, &t);
     return t;
 }
 

@@ -8,8 +8,7 @@
 #include "solver/vector3.h"
 #include "solver/workspace.h"
 
-/* What elements, contact and explicit pressure do to a node. */
-static void node_force(const Workspace *w, int node, double f[3])
+void step_node_force(const Workspace *w, int node, double f[3])
 {
     const Model *m = w->model;
     f[0] = f[1] = f[2] = 0.0;
@@ -41,7 +40,7 @@ static void node_area(const Workspace *w, int node, int bag, double s[3])
 static void add_node(const Workspace *w, int node, const RateRows *held, GasPass *bags)
 {
     double f[3], inverse = w->model->inverse_mass[node];
-    node_force(w, node, f);
+    step_node_force(w, node, f);
     if (held) rate_rows_apply(held, f);
     for (int b = 0; b < w->model->airbag_count; b++) {
         double s[3];
@@ -78,7 +77,7 @@ static void add_body(const Workspace *w, int index, GasPass *bags)
     held_rates(w, index, &translation, &rotation);
     for (int k = 0; k < body->node_count; k++) {
         double f[3], arm[3], part[3];
-        node_force(w, body->node[k], f);
+        step_node_force(w, body->node[k], f);
         vector3_subtract(w->state->x + 3 * (ptrdiff_t)body->node[k], state->x, arm);
         vector3_cross(arm, f, part);
         for (int i = 0; i < 3; i++) {

@@ -151,15 +151,17 @@ typedef struct Workspace {
     double *lane_rate;                  /* squared frequency of each lane of the critical chunk */
     double *kept_history;               /* of one chunk */
     int critical_chunk, critical_group; /* with the largest frequency of this cycle */
-    GasPass *gas_pass;                  /* partial sums of the implicit gas (node chunks + 1) x (airbag_count) */
-    WallPlan *walls;                    /* (wall_count) */
-    WallSums *wall_sums;                /* (node chunks + 1) x (wall_count) */
-    unsigned char *wall_pending;        /* 1: a wall with mass decides on this node (moving_count) */
-    double *wall_force;                 /* force of each wall on the nodes and its normal part (wall_count x 4) */
-    bool general;                       /* body classes or stagnation pressure: the general node loop */
-    bool closed;                        /* energies of the last cycle are in the ledger */
-    double element_step;                /* stable step of the elements before TSSFAC */
-    ContactLoop *contact;               /* NULL if the scene has none */
+    double *implicit;            /* of the nodes of implicit elements: accelerations and forces (their count x 7) */
+    double *implicit_before;     /* their velocities at n - 1/2 (node_count x 3) */
+    GasPass *gas_pass;           /* partial sums of the implicit gas (node chunks + 1) x (airbag_count) */
+    WallPlan *walls;             /* (wall_count) */
+    WallSums *wall_sums;         /* (node chunks + 1) x (wall_count) */
+    unsigned char *wall_pending; /* 1: a wall with mass decides on this node (moving_count) */
+    double *wall_force;          /* force of each wall on the nodes and its normal part (wall_count x 4) */
+    bool general;                /* body classes or stagnation pressure: the general node loop */
+    bool closed;                 /* energies of the last cycle are in the ledger */
+    double element_step;         /* stable step of the elements before TSSFAC */
+    ContactLoop *contact;        /* NULL if the scene has none */
     CyclePlan plan;
     JetWork *jets;     /* (jet_count), NULL without jets */
     JetSums *jet_sums; /* (jet_chunk_count) */
@@ -200,15 +202,19 @@ void step_elements(Workspace *w, int thread, int threads);             /* all th
 void step_gas(Workspace *w);                                           /* thread 0: sums, gas, pressures, next step */
 void step_gas_pass(Workspace *w, int thread, int threads);             /* all threads: sums of the implicit gas */
 void step_gas_implicit(Workspace *w);                                  /* thread 0: pressures at the mean volume */
-void step_nodes(Workspace *w, int thread, int threads);                /* all threads: free nodes */
-void step_special(Workspace *w);                                       /* thread 0: special nodes */
-void step_walls_begin(Workspace *w);                                   /* thread 0: where the walls are */
-void step_walls_special(Workspace *w, NodeSums *sums);                 /* thread 0: special nodes; walls with mass */
-void step_walls_forces(Workspace *w);                                  /* thread 0: sums for the writers */
-void step_tick(Workspace *w);                                          /* thread 0: the clock moves on */
-void step_emit(Workspace *w);                                          /* thread 0: full-step view to the hooks */
-void step_advance_positions(Workspace *w, int thread, int threads);    /* all threads, after an emitting cycle */
-void step_close_energies(Workspace *w);                                /* thread 0: ledger at t_n */
+void step_implicit_energy(const Workspace *w, NodeSums *sums); /* thread 0: of what their nodes have in excess */
+/* What elements, contact and explicit pressure do to a node. */
+void step_node_force(const Workspace *w, int node, double f[3]);
+void step_implicit(Workspace *w);                                   /* thread 0: nodes of implicit elements */
+void step_nodes(Workspace *w, int thread, int threads);             /* all threads: free nodes */
+void step_special(Workspace *w);                                    /* thread 0: special nodes */
+void step_walls_begin(Workspace *w);                                /* thread 0: where the walls are */
+void step_walls_special(Workspace *w, NodeSums *sums);              /* thread 0: special nodes; walls with mass */
+void step_walls_forces(Workspace *w);                               /* thread 0: sums for the writers */
+void step_tick(Workspace *w);                                       /* thread 0: the clock moves on */
+void step_emit(Workspace *w);                                       /* thread 0: full-step view to the hooks */
+void step_advance_positions(Workspace *w, int thread, int threads); /* all threads, after an emitting cycle */
+void step_close_energies(Workspace *w);                             /* thread 0: ledger at t_n */
 /* All threads: free nodes [first, end) of one chunk, after their node loop; before: their velocities at n - 1/2. */
 void step_walls_chunk(Workspace *w, int chunk, int first, int end, const double *before, NodeSums *sums);
 int step_functions_allocate(Workspace *w); /* -1 without memory */

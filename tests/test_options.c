@@ -36,7 +36,7 @@ static void test_run_spelling(void **state)
     assert_true(options.build.end_time == 0.0);
 
     assert_int_equal(parse("run -o out -j 4 b.k --end-time 2.5e-2 --restart out/r --quiet --one-point-quads "
-                           "--caps-push-rim --energy-error-limit 0.3 --sensor-library ./s.so",
+                           "--caps-push-rim --all-explicit --energy-error-limit 0.3 --sensor-library ./s.so",
                            &options),
                      0);
     assert_string_equal(options.build.sensor_library, "./s.so");
@@ -48,6 +48,7 @@ static void test_run_spelling(void **state)
     assert_true(options.quiet);
     assert_true(options.build.one_point_quads);
     assert_true(options.build.caps_push_rim);
+    assert_true(options.build.all_explicit);
     assert_true(options.build.energy_error_limit == 0.3);
 
     assert_int_equal(parse("run -j3 -oout --end-time=7 -q -- -odd.k", &options), 0);
