@@ -64,13 +64,23 @@ static double body_mobility(const ContactLoop *loop, int body, const double turn
  * the others, whose distance is as cheap. */
 static double far_square(const ContactLoop *loop, const ContactEntity *entity, const EntityFrame *frame, double half)
 {
-    if (entity->inside || entity->shape == ENTITY_PLANE || entity->shape == ENTITY_CYLINDER) return INFINITY;
+    if (entity->inside || entity->shape == ENTITY_PLANE || entity->shape == ENTITY_CYLINDER ||
+        entity->shape == ENTITY_RECTANGLE)
+        return INFINITY;
     double arm[3], spin = vector3_norm(frame->spin), turned = half * spin;
     vector3_subtract(frame->origin, frame->centre, arm);
     double size = fmax(entity->size[0], fmax(entity->size[1], entity->size[2])) + entity->thickest;
+    if (entity->shape == ENTITY_TORUS) size += entity->size[1];
     double way = half * (loop->fastest + vector3_norm(frame->v) + spin * vector3_norm(arm));
     double far = (size + way) / (1.0 - turned) * (1.0 + 1e-9);
     return turned < 0.5 ? far * far : INFINITY;
+}
+
+/* Was a probe that touches an open surface in front of it one step ago (eq. I13)? Others have come around its rim. */
+static bool came_through(const ContactEntity *entity, const EntityHit *hit, double before)
+{
+    double ahead = hit->gap - before * vector3_dot(hit->speed, hit->normal);
+    return ahead >= -0.1 * before * vector3_norm(hit->speed) - 1e-9 * entity->size[0];
 }
 
 /* Fills hit from a probe at x and tells whether it touches (eq. I7). half: half the mean step. */
@@ -104,9 +114,9 @@ static double probe_mass(const ContactLoop *loop, const ContactEntity *entity, i
     return isfinite(least) ? least : 0.0;
 }
 
-/* far: beyond this squared distance from the origin nothing touches. */
-static void look_at_chunk(ContactLoop *loop, EntityRun *run, int chunk, const EntityFrame *frame, double half,
-                          double far)
+/* before: the last step. far: beyond this squared distance from the origin nothing touches. */
+static void look_at_chunk(ContactLoop *loop, EntityRun *run, int chunk, const EntityFrame *frame, double before,
+                          double half, double far)
 {
     const ContactEntity *entity = run->entity;
     EntitySums *sums = &run->sums[chunk];
@@ -120,7 +130,8 @@ static void look_at_chunk(ContactLoop *loop, EntityRun *run, int chunk, const En
         vector3_subtract(x, frame->origin, r);
         bool near = vector3_dot(r, r) < far;
         EntityHit *hit = &hits[sums->count];
-        if (near && probe_touches(loop, entity, frame, x, p, half, hit)) {
+        if (near && probe_touches(loop, entity, frame, x, p, half, hit) &&
+            (!entity->open || run->held[p] || came_through(entity, hit, before))) {
             double mass = probe_mass(loop, entity, p);
             if (mass > 0.0) {
                 sums->mobility += mass * body_mobility(loop, entity->body, hit->turn);
@@ -143,7 +154,7 @@ void entities_look(ContactLoop *loop, double time, double before, double next, i
         bool alive = time >= run->entity->birth && time < run->entity->death;
         double far = far_square(loop, run->entity, &frame, half);
         for (int c = thread; c < run->chunk_count; c += threads)
-            look_at_chunk(loop, run, c, &frame, half, alive ? far : -1.0);
+            look_at_chunk(loop, run, c, &frame, before, half, alive ? far : -1.0);
     }
 }
 

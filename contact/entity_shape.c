@@ -1,4 +1,4 @@
-/* Distance of a point from the smooth shapes of contact entities. Equations (I1) to (I4) of docs/theory.md. */
+/* Distance of a point from the smooth shapes of contact entities. Equations (I1) to (I4), (I10) of docs/theory.md. */
 #include <math.h>
 
 #include "contact/contact_entity.h"
@@ -80,6 +80,22 @@ static EntityGap ellipsoid_gap(const double half[3], const double r[3])
     return gap;
 }
 
+static EntityGap torus_gap(const double size[3], const double r[3])
+{
+    double rho = sqrt(r[0] * r[0] + r[1] * r[1]), across = rho - size[0], norm = sqrt(across * across + r[2] * r[2]);
+    double e[2] = {rho > 0.0 ? r[0] / rho : 1.0, rho > 0.0 ? r[1] / rho : 0.0};
+    if (!(norm > 0.0)) return (EntityGap){.distance = -size[1], .normal = {e[0], e[1], 0.0}};
+    return (EntityGap){.distance = norm - size[1], .normal = {across / norm * e[0], across / norm * e[1], r[2] / norm}};
+}
+
+static EntityGap profile_gap(const RevolvedProfile *profile, const double r[3])
+{
+    double rho = sqrt(r[0] * r[0] + r[1] * r[1]), n[2];
+    double distance = revolved_profile_distance(profile, rho, r[2], n);
+    double e[2] = {rho > 0.0 ? r[0] / rho : 1.0, rho > 0.0 ? r[1] / rho : 0.0};
+    return (EntityGap){.distance = distance, .normal = {n[0] * e[0], n[0] * e[1], n[1]}};
+}
+
 EntityGap entity_gap(const ContactEntity *entity, const double r[3])
 {
     EntityGap gap = {.distance = r[2], .normal = {0.0, 0.0, 1.0}};
@@ -87,7 +103,11 @@ EntityGap entity_gap(const ContactEntity *entity, const double r[3])
     if (entity->shape == ENTITY_CYLINDER) gap = cylinder_gap(entity->size[0], r);
     if (entity->shape == ENTITY_ELLIPSOID) gap = ellipsoid_gap(entity->size, r);
     if (entity->shape == ENTITY_HULL) gap.distance = convex_hull_distance(&entity->hull, r, gap.normal);
-    if (!entity->inside) return gap;
+    if (entity->shape == ENTITY_TORUS) gap = torus_gap(entity->size, r);
+    if (entity->shape == ENTITY_PROFILE) gap = profile_gap(&entity->profile, r);
+    if (entity->shape == ENTITY_RECTANGLE && (fabs(r[0]) > entity->size[0] || fabs(r[1]) > entity->size[1]))
+        gap.distance = INFINITY;
+    if (!entity->inside || isinf(gap.distance)) return gap;
     gap.distance = -gap.distance;
     for (int k = 0; k < 3; k++) gap.normal[k] = -gap.normal[k];
     return gap;

@@ -33,8 +33,8 @@ static const FieldSpec card4_fields[] = {
     CARD_REAL("BZ", b[2], USED, NONE),
 };
 static const FieldSpec card5_fields[] = {
-    CARD_INT("INOUT", inout, USED, NONE), CARD_REAL("G1", g[0], USED, LENGTH), CARD_REAL("G2", g[1], USED, LENGTH),
-    CARD_REAL("G3", g[2], USED, LENGTH),  CARD_REAL("G4", g[3], USED, NONE),   CARD_REAL("G5", g[4], USED, NONE),
+    CARD_INT("INOUT", inout, USED, NONE), CARD_REAL("G1", g[0], USED, NONE), CARD_REAL("G2", g[1], USED, NONE),
+    CARD_REAL("G3", g[2], USED, NONE),    CARD_REAL("G4", g[3], USED, NONE), CARD_REAL("G5", g[4], USED, NONE),
     CARD_REAL("G6", g[5], USED, NONE),    CARD_REAL("G7", g[6], USED, NONE),
 };
 #undef AT
@@ -44,26 +44,52 @@ static const CardSpec entity_cards[] = {
     {"card 5", "", CARD_FIELDS(card5_fields)},
 };
 
+/* What the coefficients of each shape are: L a length, N a number, C the id of a curve, blank nothing. The rest is for
+ * the mesh or the thickness that LS-DYNA makes of the shape. */
+static const char *coefficients_of(int geotyp)
+{
+    static const char *const coefficients[] = {[1] = "LLLNNN ", [2] = "LLLL   ", [3] = "LLLNNNL",  [4] = "LLLLLLN",
+                                               [5] = "LLLLL  ", [9] = "       ", [10] = "LL     ", [11] = "C      "};
+    const int known = (int)(sizeof coefficients / sizeof *coefficients);
+    return geotyp >= 1 && geotyp < known ? coefficients[geotyp] : NULL;
+}
+
+#define SHAPES                                                                                                         \
+    "use 1 (plane), 2 (sphere), 3 (infinite cylinder), 4 (ellipsoid), 5 (torus), 9 (convex mesh of the part), 10 "     \
+    "(finite plane) or 11 (body of revolution by a curve)"
+
 /* The shapes of LS-DYNA that are not there. */
 static bool check_shape(const KeywordRead *read, const EntityDefinition *e)
 {
-    static const char *const others[] = {
-        "torus", "CAL3D or MADYMO plane", "CAL3D or MADYMO ellipsoid",      "VDA surface",
-        "",      "finite plane",          "axisymmetric profile by a curve"};
-    if ((e->geotyp >= 1 && e->geotyp <= 4) || e->geotyp == 9) return true;
-    if (e->geotyp >= 5 && e->geotyp <= 11)
-        keyword_error(read, e->card1,
-                      "GEOTYP = %d (%s) is not there in billow " BILLOW_VERSION
-                      "; use 1 (plane), 2 (sphere), 3 (cylinder), 4 (ellipsoid) or 9 (convex mesh of the part), or "
-                      "mesh the shape as a rigid part in "
-                      "a *CONTACT",
-                      e->geotyp, others[e->geotyp - 5]);
+    static const char *const others[] = {"CAL3D or MADYMO plane", "CAL3D or MADYMO ellipsoid", "VDA surface"};
+    if (coefficients_of(e->geotyp)) return true;
+    if (e->geotyp >= 6 && e->geotyp <= 8)
+        keyword_error(read, e->card1, "GEOTYP = %d (%s) is not there in billow " BILLOW_VERSION "; " SHAPES, e->geotyp,
+                      others[e->geotyp - 6]);
     else
-        keyword_error(read, e->card1,
-                      "GEOTYP = %d is no shape; use 1 (plane), 2 (sphere), 3 (cylinder), 4 (ellipsoid) or 9 (convex "
-                      "mesh of the part)",
-                      e->geotyp);
+        keyword_error(read, e->card1, "GEOTYP = %d is no shape; " SHAPES, e->geotyp);
     return false;
+}
+
+/* Coefficients by the include's factors and offsets; those without effect are listed. */
+static bool take_coefficients(KeywordRead *read, EntityDefinition *e)
+{
+    const char *kinds = coefficients_of(e->geotyp);
+    if (e->geotyp == 11 && !keyword_real_id(read, &e->g[0], SCALE_ID_FUNCTION, "G1", e->card5)) return false;
+    if (e->geotyp == 11 && !(e->g[0] > 0.0)) {
+        keyword_error(
+            read, e->card5,
+            "G1 = %g: with GEOTYP = 11 name the *DEFINE_CURVE of the profile, the radius over the place on the "
+            "third axis",
+            e->g[0]);
+        return false;
+    }
+    for (int k = 0; k < 7; k++) {
+        if (kinds[k] == 'L') e->g[k] = keyword_scale(read, e->g[k], SCALE_LENGTH);
+        if (kinds[k] == ' ' && e->g[k] != 0.0)
+            keyword_note(read, e->card5, "G%d = %g is read but not used with GEOTYP = %d", k + 1, e->g[k], e->geotyp);
+    }
+    return true;
 }
 
 static bool check_options(const KeywordRead *read, const EntityDefinition *e)
@@ -95,16 +121,13 @@ static bool check_options(const KeywordRead *read, const EntityDefinition *e)
     return read->cards->diagnostics->errors == errors;
 }
 
-/* Lengths and positions by the include's factors; the local system by its transformation. */
+/* The local system by the include's transformation. */
 static void transform(const KeywordRead *read, EntityDefinition *e)
 {
     bool bare = true;
     for (int k = 0; k < 3; k++) bare = bare && e->a[k] == 0.0 && e->b[k] == 0.0;
     if (bare) e->a[0] = e->b[1] = 1.0;
     e->ssid = (int)keyword_scale(read, e->ssid, e->sstyp == 1 ? SCALE_ID_PART : SCALE_ID_SET);
-    for (int k = 3; k < 7; k++)
-        if (e->geotyp == 2 || e->geotyp == 3 ? k == (e->geotyp == 2 ? 3 : 6) : e->geotyp == 4 && k < 6)
-            e->g[k] = keyword_scale(read, e->g[k], SCALE_LENGTH);
     keyword_transform_point(read, e->centre);
     keyword_transform_vector(read, e->a);
     keyword_transform_vector(read, e->b);
@@ -125,7 +148,7 @@ static void read_entity(KeywordRead *read)
         good = check_options(read, e) && good;
         good = keyword_check_id(read, e->pid, "PID", e->card1) && good;
         good = keyword_check_id(read, e->ssid, "SSID", e->card1) && good;
-        if (!good) continue;
+        if (!good || !take_coefficients(read, e)) continue;
         transform(read, e);
         EntityDefinition *entity = KEYWORD_APPEND(read, read->definitions->entities);
         if (entity) *entity = *e;
@@ -138,17 +161,27 @@ static const KeywordSpec specs[] = {
      .card_count = 5,
      .read = read_entity,
      .remark =
-         "A plane, sphere, infinite cylinder, ellipsoid or convex mesh that moves with the rigid part PID; nodes of "
-         "SSID "
-         "meet its exact surface. The shape is given in a local system with its origin at XC, YC, ZC and the "
-         "directions "
-         "A and B (blank: the global ones). GEOTYP 1: point G1 to G3, normal G4 to G6; 2: centre G1 to G3, radius G4; "
-         "3: point G1 to G3, axis G4 to G6, radius G7; 4: centre G1 to G3, half axes G4 to G6, order G7 = 2 (or "
-         "blank); "
-         "9: the part's own shells or solids, a closed convex surface. Other GEOTYP are refused. INTORD = n: n x n "
-         "points within each segment as well. ITHK = 1: half the shells' thickness stays clear, for all shapes and "
-         "SSTYP. SO 0 and 1 are one stable penalty, scaled by SF. Nodes that start inside push only when they come "
-         "deeper. Forces: *DATABASE_GCEOUT. Numbered in deck order."},
+         "A shape that moves with the rigid part PID; nodes of SSID meet its exact surface. It is given in a local "
+         "system "
+         "x, y, z with its origin at XC, YC, ZC, x along A and y in the plane of A and B (blank: the global "
+         "directions). "
+         "GEOTYP 1, plane: point G1 to G3, normal G4 to G6. 2, sphere: centre G1 to G3, radius G4. 3, infinite "
+         "cylinder: "
+         "point G1 to G3, axis G4 to G6, radius G7. 4, ellipsoid: centre G1 to G3, half axes G4 to G6, order G7 = 2 "
+         "(or "
+         "blank). 5, torus about z: centre G1 to G3, radius G4 from the axis to the middle of the tube, radius G5 of "
+         "the "
+         "tube, not above G4. 9: the part's own shells or solids, a closed convex surface. 10, finite plane: sides G1 "
+         "along x and G2 along y, the origin in its middle, nodes on the side to which z points. 11, body of "
+         "revolution "
+         "about z: G1 is a *DEFINE_CURVE of the radius over z, joined by straight lines; DATTYP = 1 allows several "
+         "radii "
+         "at one z, for flat ends and undercuts, and rings; an end whose radius is not 0 is open. GEOTYP 6 to 8 are "
+         "refused. Finite planes and open profiles hold only nodes that come through them. INTORD = n: n x n points "
+         "within each segment as well. ITHK = 1: half the shells' thickness stays clear, for all shapes and SSTYP. SO "
+         "0 "
+         "and 1 are one stable penalty, scaled by SF. Nodes that start inside push only when they come deeper. Forces: "
+         "*DATABASE_GCEOUT. Numbered in deck order."},
 };
 
 const KeywordFamily keyword_family_contact_entity = {"Smooth rigid shapes", specs, (int)(sizeof specs / sizeof *specs)};

@@ -115,15 +115,11 @@ static void read_curve(KeywordRead *read)
                       card.sfa);
         status = -1;
     }
-    if (status == 0 && card.dattyp == 1 && !rises(&card)) {
-        keyword_warning(read, card.source,
-                        "curve %d is general x-y data (DATTYP = 1) whose abscissae do not rise; no field "
-                        "of billow can use it, and it is left out",
-                        card.id);
-        status = -1;
-    }
-    if (status == 0) status = check_points(read, &card);
-    CurveDefinition *curve = status == 0 ? KEYWORD_APPEND(read, read->definitions->curves) : NULL;
+    const bool outline = status == 0 && card.dattyp == 1 && !rises(&card);
+    if (status == 0 && !outline) status = check_points(read, &card);
+    CurveDefinition *curve = NULL;
+    if (status == 0 && outline) curve = KEYWORD_APPEND(read, read->definitions->outlines);
+    if (status == 0 && !outline) curve = KEYWORD_APPEND(read, read->definitions->curves);
     if (!curve) {
         free_points(&card);
         return;
@@ -144,7 +140,9 @@ static const KeywordSpec specs[] = {
      .read = read_curve,
      .remark =
          "Points stand in columns of 20. The value is SFO (O1 + OFFO) at SFA (A1 + OFFA), constant beyond the ends. "
-         "Decreasing abscissae are an error unless DATTYP = 1. Unit factors of *INCLUDE_TRANSFORM do not act on "
+         "Abscissae that do not rise are an error unless DATTYP = 1; then only a profile of *CONTACT_ENTITY can use "
+         "the "
+         "curve. Unit factors of *INCLUDE_TRANSFORM do not act on "
          "curves, which is warned of."},
 };
 

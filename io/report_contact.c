@@ -1,4 +1,6 @@
 /* The report of contacts: who meets whom, and what lies too near or through each other at the start. */
+#include <math.h>
+
 #include "contact/contact_check.h"
 #include "io/report.h"
 #include "solver/vector3.h"
@@ -69,9 +71,43 @@ static double start_gap(const Model *model, const ContactEntity *e, int probe)
     return entity_gap(e, local).distance - e->radius[probe];
 }
 
+static void write_profile(const RevolvedProfile *profile, FILE *stream)
+{
+    double low = profile->end[1], high = low, widest = profile->end[0];
+    for (int i = 0; i < profile->edge_count; i++) {
+        low = fmin(low, profile->edge[i].z);
+        high = fmax(high, profile->edge[i].z);
+        widest = fmax(widest, profile->edge[i].r);
+    }
+    fprintf(stream, ", z from %.6g to %.6g, radius up to %.6g, %d edges", low, high, widest, profile->edge_count);
+    for (int end = 0; end < 2; end++)
+        if (revolved_profile_open(profile, end))
+            fprintf(stream, ", open at z = %.6g", end == 0 ? profile->edge[0].z : profile->end[1]);
+}
+
+static void write_sizes(const ContactEntity *e, FILE *stream)
+{
+    if (e->shape == ENTITY_SPHERE || e->shape == ENTITY_CYLINDER) fprintf(stream, ", radius %.6g", e->size[0]);
+    if (e->shape == ENTITY_ELLIPSOID)
+        fprintf(stream, ", half axes %.6g, %.6g, %.6g", e->size[0], e->size[1], e->size[2]);
+    if (e->shape == ENTITY_HULL)
+        fprintf(stream, ", %d corners and %d faces", e->hull.corner_count, e->hull.plane_count);
+    if (e->shape == ENTITY_TORUS) fprintf(stream, ", radius %.6g of a tube of radius %.6g", e->size[0], e->size[1]);
+    if (e->shape == ENTITY_PROFILE) write_profile(&e->profile, stream);
+    if (e->shape != ENTITY_RECTANGLE) return;
+    fprintf(stream, ", %.6g x %.6g, corners", 2.0 * e->size[0], 2.0 * e->size[1]);
+    for (int corner = 0; corner < 4; corner++) {
+        double x[3], a = corner == 0 || corner == 3 ? -e->size[0] : e->size[0],
+                     b = corner < 2 ? -e->size[1] : e->size[1];
+        for (int k = 0; k < 3; k++) x[k] = e->origin[k] + a * e->axes[k] + b * e->axes[3 + k];
+        fprintf(stream, "%s (%.6g, %.6g, %.6g)", corner > 0 ? "," : "", x[0], x[1], x[2]);
+    }
+}
+
 static void write_entity(const Model *model, const ContactEntity *e, FILE *stream)
 {
-    static const char *const shapes[] = {"plane", "sphere", "cylinder", "ellipsoid", "convex mesh"};
+    static const char *const shapes[] = {"plane",       "sphere", "cylinder",     "ellipsoid",
+                                         "convex mesh", "torus",  "finite plane", "body of revolution"};
     int inside = 0, worst = -1;
     double deepest = -1e-9 * (e->size[0] + e->thickest); /* on the surface is not inside */
     for (int p = 0; p < e->probe_count; p++) {
@@ -82,16 +118,15 @@ static void write_entity(const Model *model, const ContactEntity *e, FILE *strea
     }
     fprintf(stream, "  entity %d: %s%s on %s part %d, at (%.6g, %.6g, %.6g)", e->id, e->inside ? "inside of a " : "",
             shapes[e->shape], e->body < 0 ? "fixed" : "rigid", e->part_id, e->origin[0], e->origin[1], e->origin[2]);
-    if (e->shape == ENTITY_SPHERE || e->shape == ENTITY_CYLINDER) fprintf(stream, ", radius %.6g", e->size[0]);
-    if (e->shape == ENTITY_ELLIPSOID)
-        fprintf(stream, ", half axes %.6g, %.6g, %.6g", e->size[0], e->size[1], e->size[2]);
-    if (e->shape == ENTITY_HULL)
-        fprintf(stream, ", %d corners and %d faces", e->hull.corner_count, e->hull.plane_count);
+    write_sizes(e, stream);
     fprintf(stream, "; %d nodes", e->node_count);
     if (e->probe_count > e->node_count) fprintf(stream, " and %d points", e->probe_count - e->node_count);
     if (e->friction > 0.0) fprintf(stream, ", friction %.4g", e->friction);
     if (inside == 0)
         fprintf(stream, "\n    at the start none of them is within it\n");
+    else if (e->open)
+        fprintf(stream, "\n    at the start %d of them are behind it; it holds only what comes through it later\n",
+                inside);
     else
         fprintf(stream,
                 "\n    at the start %d of them are within it, the deepest by %.4g at node %d; they push only when "

@@ -1,4 +1,4 @@
-/* *CONTACT_ENTITY -> contact entities: shape, probes; then the same in the model's order of nodes. */
+/* *CONTACT_ENTITY -> contact entities: their parts and probes; then the same in the model's order of nodes. */
 #include <math.h>
 #include <string.h>
 
@@ -9,12 +9,6 @@
 static const char KEYWORD[] = "*CONTACT_ENTITY";
 
 enum { MOST_ORDER = 5 };
-
-static int refuse(Builder *b, Source source, const char *what)
-{
-    diagnostics_add(b->diagnostics, SEVERITY_ERROR, source, KEYWORD, "%s", what);
-    return -1;
-}
 
 /* The rigid part that the shape goes with. */
 static int find_part(Builder *b, const EntityDefinition *d, ContactEntity *entity)
@@ -28,96 +22,6 @@ static int find_part(Builder *b, const EntityDefinition *d, ContactEntity *entit
                              : "part %d is not rigid; give it a *MAT_RIGID: the shape moves with it",
                     d->pid);
     return -1;
-}
-
-/* Axes of the local system, as rows: A, then B across it. */
-static int find_axes(Builder *b, const EntityDefinition *d, double axes[9])
-{
-    memcpy(axes, d->a, 3 * sizeof *axes);
-    double size = vector3_normalize(axes), other = vector3_norm(d->b);
-    vector3_cross(axes, d->b, axes + 6);
-    bool good = size > 0.0 && vector3_normalize(axes + 6) > 1e-6 * other;
-    if (!good)
-        return refuse(b, d->card3,
-                      "the directions A (AX, AY, AZ) and B (BX, BY, BZ) make no local system; give 1, 0, 0 and 0, 1, 0 "
-                      "for the global one");
-    vector3_cross(axes + 6, axes, axes + 3);
-    return 0;
-}
-
-/* Turns the axes so that the third is the direction of the shape's normal or axis, given in the local system. */
-static int turn_axes(Builder *b, const EntityDefinition *d, double axes[9])
-{
-    double n[3], l[3] = {0.0, 0.0, 0.0};
-    matrix3_apply_transposed(axes, d->g + 3, n);
-    if (!(vector3_normalize(n) > 0.0))
-        return refuse(b, d->card5,
-                      d->geotyp == 1 ? "the normal of the plane (G4, G5, G6) is zero; it points to where the nodes are"
-                                     : "the axis of the cylinder (G4, G5, G6) is zero");
-    l[fabs(n[0]) < 0.6 ? 0 : 1] = 1.0;
-    vector3_cross(n, l, axes + 3);
-    vector3_normalize(axes + 3);
-    vector3_cross(axes + 3, n, axes);
-    memcpy(axes + 6, n, sizeof n);
-    return 0;
-}
-
-/* GEOTYP 9: the faces of the part, which must be a closed convex surface. */
-static int find_hull(Builder *b, const EntityDefinition *d, ContactEntity *entity)
-{
-    int32_t part = id_map_find(&b->index.parts, d->pid);
-    if (part < 0) return -1; /* reported */
-    int32_t first = b->index.part_shell_start[part], count = b->index.part_shell_start[part + 1] - first;
-    int32_t *facet = memory_alloc(4 * (size_t)count + 1, sizeof *facet);
-    ConvexHull *hull = &entity->hull;
-    HullKind kind = HULL_OPEN;
-    int status = -1;
-    for (int32_t i = 0; facet && i < count; i++) {
-        const ShellRecord *r = &b->records[b->index.part_shell[first + i]];
-        for (int a = 0; a < 4; a++) facet[4 * i + a] = r->node[a < r->corner_count ? a : 2];
-    }
-    if (facet) status = convex_hull_make(count, facet, b->x, hull, &kind);
-    memory_free(facet);
-    if (status) return -1;
-    if (builder_adopt(b, hull->corner) | builder_adopt(b, hull->plane) | builder_adopt(b, hull->triangle) |
-        builder_adopt(b, hull->side))
-        return -1;
-    entity->shape = ENTITY_HULL;
-    memcpy(entity->origin, hull->origin, sizeof entity->origin);
-    for (int k = 0; k < 3; k++) entity->size[k] = hull->radius;
-    for (int k = 0; k < 3; k++) entity->axes[4 * k] = 1.0;
-    if (kind == HULL_CONVEX) return 0;
-    return refuse(b, d->card1,
-                  kind == HULL_OPEN ? "GEOTYP = 9: the mesh of the part is not closed; close it, or use a *CONTACT"
-                  : kind == HULL_FLAT
-                      ? "GEOTYP = 9: the mesh of the part encloses nothing; use a *CONTACT"
-                      : "GEOTYP = 9: the mesh of the part is not convex; use a *CONTACT, which meets its "
-                        "faces");
-}
-
-static int find_shape(Builder *b, const EntityDefinition *d, ContactEntity *entity)
-{
-    if (d->geotyp == 9) return find_hull(b, d, entity);
-    static const EntityShape shapes[] = {ENTITY_PLANE, ENTITY_SPHERE, ENTITY_CYLINDER, ENTITY_ELLIPSOID};
-    double moved[3];
-    entity->shape = shapes[d->geotyp - 1];
-    if (find_axes(b, d, entity->axes)) return -1;
-    matrix3_apply_transposed(entity->axes, d->g, moved);
-    for (int k = 0; k < 3; k++) entity->origin[k] = d->centre[k] + moved[k];
-    for (int k = 0; k < 3; k++) entity->size[k] = d->geotyp == 3 ? d->g[6] : d->geotyp == 2 ? d->g[3] : d->g[3 + k];
-    bool turned = entity->shape == ENTITY_PLANE || entity->shape == ENTITY_CYLINDER;
-    if (turned && turn_axes(b, d, entity->axes)) return -1;
-    if (entity->shape == ENTITY_ELLIPSOID && d->g[6] != 0.0 && d->g[6] != 2.0)
-        return refuse(b, d->card5, "G7, the order of the ellipsoid, must be 2 (or blank): other orders are not there");
-    if (entity->shape == ENTITY_PLANE) return 0;
-    for (int k = 0; k < 3; k++)
-        if (!(entity->size[k] > 0.0))
-            return refuse(b, d->card5,
-                          entity->shape == ENTITY_SPHERE     ? "the radius of the sphere (G4) must be positive"
-                          : entity->shape == ENTITY_CYLINDER ? "the radius of the cylinder (G7) must be positive"
-                                                             : "the half axes G4, G5, G6 of the ellipsoid must "
-                                                               "be positive");
-    return 0;
 }
 
 /* Who is named: a mark for each shell (by parts) or node. */
@@ -248,7 +152,8 @@ int build_entities(Builder *b)
                                   .stiffness = 0.1 * definition->sf,
                                   .birth = definition->birth,
                                   .death = definition->death};
-        if (find_part(b, definition, entity) | find_shape(b, definition, entity) | resolve(b, definition, entity))
+        if (find_part(b, definition, entity) | build_entity_shape(b, definition, entity) |
+            resolve(b, definition, entity))
             status = -1;
     }
     return status;

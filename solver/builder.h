@@ -158,8 +158,10 @@ void mark_seam_nodes(const Builder *builder, unsigned char *special); /* by buil
 int build_contacts(Builder *builder);         /* who meets whom, in deck order; after build_shells */
 int build_contact_surfaces(Builder *builder); /* triangles, edges, neighbours; after build_renumber */
 int build_entities(Builder *builder);         /* contact entities, in deck order; after build_shells */
-int build_entity_nodes(Builder *builder);     /* the same in the model's order; after build_renumber */
-int build_erosion_parts(Builder *builder);    /* criteria of the parts; after build_parts and build_output */
+/* The shape of one of them and where it is, by build_entities. */
+int build_entity_shape(Builder *builder, const EntityDefinition *definition, ContactEntity *entity);
+int build_entity_nodes(Builder *builder);  /* the same in the model's order; after build_renumber */
+int build_erosion_parts(Builder *builder); /* criteria of the parts; after build_parts and build_output */
 int build_erosion(
     Builder *builder); /* criteria of the groups, facets of the bags; after build_groups and build_areas */
 void mark_bound_nodes(const Model *model, unsigned char *bound);     /* held, driven, hanging, rigid or fixed nodes */

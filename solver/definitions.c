@@ -5,6 +5,13 @@
 
 #include "solver/memory.h"
 
+static void free_points(CurveDefinition *curve)
+{
+    memory_free(curve->x.items);
+    memory_free(curve->y.items);
+    memory_free(curve->lines.items);
+}
+
 void definitions_free(Definitions *d)
 {
     for (size_t i = 0; i < d->sets.count; i++) {
@@ -12,11 +19,8 @@ void definitions_free(Definitions *d)
         memory_free(d->sets.items[i].clauses.items);
         memory_free(d->sets.items[i].segments.items);
     }
-    for (size_t i = 0; i < d->curves.count; i++) {
-        memory_free(d->curves.items[i].x.items);
-        memory_free(d->curves.items[i].y.items);
-        memory_free(d->curves.items[i].lines.items);
-    }
+    for (size_t i = 0; i < d->curves.count; i++) free_points(&d->curves.items[i]);
+    for (size_t i = 0; i < d->outlines.count; i++) free_points(&d->outlines.items[i]);
     for (size_t i = 0; i < d->functions.count; i++) memory_free(d->functions.items[i].program.code);
     void *lists[] = {d->nodes.items,
                      d->shells.items,
@@ -26,6 +30,7 @@ void definitions_free(Definitions *d)
                      d->hourglasses.items,
                      d->sets.items,
                      d->curves.items,
+                     d->outlines.items,
                      d->coordinates.items,
                      d->vectors.items,
                      d->boxes.items,

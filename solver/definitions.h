@@ -39,6 +39,7 @@ typedef struct Definitions {
     LIST(HourglassDefinition) hourglasses;
     LIST(SetDefinition) sets;
     LIST(CurveDefinition) curves;
+    LIST(CurveDefinition) outlines; /* DATTYP = 1 whose abscissae do not rise: points in the order of the deck */
     LIST(FunctionDefinition) functions;
     LIST(CoordinateDefinition) coordinates;
     LIST(VectorDefinition) vectors;

@@ -22,11 +22,12 @@ static inline void scene_write_contact(SceneText *deck, const SceneContact *c)
     if (c->soft > 0 || c->sofscl > 0) SCENE_CARD(deck, c->soft, c->sofscl);
 }
 
-/* A *CONTACT_ENTITY in the global system. */
+/* A *CONTACT_ENTITY; a and b zero: along the global axes. */
 typedef struct SceneEntity {
     int part, shape, set, set_type;
     double scale, damping, friction, g[7];
     int order, thick, inside;
+    double centre[3], a[3], b[3];
 } SceneEntity;
 
 static inline void scene_write_entity(SceneText *deck, const SceneEntity *e)
@@ -34,8 +35,8 @@ static inline void scene_write_entity(SceneText *deck, const SceneEntity *e)
     scene_print(deck, "*CONTACT_ENTITY\n");
     SCENE_CARD(deck, e->part, e->shape, e->set, e->set_type, e->scale, e->damping, e->friction, e->order);
     SCENE_CARD(deck, 0, 0, 0, 0, e->thick);
-    SCENE_CARD(deck, 0, 0, 0, 1, 0, 0);
-    SCENE_CARD(deck, 0, 1, 0);
+    SCENE_CARD(deck, e->centre[0], e->centre[1], e->centre[2], e->a[0], e->a[1], e->a[2]);
+    SCENE_CARD(deck, e->b[0], e->b[1], e->b[2]);
     SCENE_CARD(deck, e->inside, e->g[0], e->g[1], e->g[2], e->g[3], e->g[4], e->g[5], e->g[6]);
 }
 

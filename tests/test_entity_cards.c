@@ -35,9 +35,13 @@ static void test_wrong_fields(void **state)
 {
     (void)state;
     static const char k[] = "*CONTACT_ENTITY";
-    assert_one_error(ENTITY("1,5,1", "0"), 2, k, "GEOTYP = 5 (torus)");
-    assert_one_error(ENTITY("1,10,1", "0"), 2, k, "GEOTYP = 10 (finite plane)");
+    assert_one_error(ENTITY("1,6,1", "0"), 2, k, "GEOTYP = 6 (CAL3D or MADYMO plane)");
+    assert_one_error(ENTITY("1,8,1", "0"), 2, k, "GEOTYP = 8 (VDA surface)");
     assert_one_error(ENTITY("1,12,1", "0"), 2, k, "GEOTYP = 12 is no shape");
+    assert_one_error(ENTITY("1,-2,1", "0"), 2, k, "GEOTYP = -2 is no shape; use 1 (plane)");
+    assert_one_error(ENTITY("1,11,1", "0"), 6, k, "G1 = 0: with GEOTYP = 11 name the *DEFINE_CURVE");
+    assert_one_error(ENTITY("1,11,1", "0,-3"), 6, k, "G1 = -3: with GEOTYP = 11");
+    assert_one_error(ENTITY("1,11,1", "0,2.5"), 6, k, "G1");
     assert_one_error(ENTITY("1,2,1,3", "0"), 2, k, "SSTYP = 3");
     assert_one_error(ENTITY("1,2,1,0,-1", "0"), 2, k, "SF = -1");
     assert_one_error(ENTITY("1,2,1,0,1,-3", "0"), 2, k, "DF = -3");
@@ -48,6 +52,41 @@ static void test_wrong_fields(void **state)
     assert_one_error(ENTITY("0,2,1", "0"), 2, k, "PID");
     assert_one_error(ENTITY("1,2,0", "0"), 2, k, "SSID");
     assert_one_error("*CONTACT_ENTITY\n1,2,1\n0,0,-4\n\n\n0,0,0,0,1\n", 3, k, "SO = -4");
+}
+
+/* What a shape does not use is listed. */
+static void test_notes(void **state)
+{
+    (void)state;
+    KeywordCase c = read_fine(ENTITY("7,5,1", "0,0,0,0,2,1,8,9") ENTITY("7,9,1", "0,0.1") ENTITY("7,11,1", "0,4,0,-1")
+                                  ENTITY("7,10,1", "0,2,3") ENTITY("7,1,1", "0,0,0,0,0,0,1,5"));
+    assert_int_equal(c.d.entities.count, 5);
+    assert_int_equal(count_notes(&c, "G6 = 8 is read but not used with GEOTYP = 5"), 1);
+    assert_int_equal(count_notes(&c, "G7 = 9 is read but not used with GEOTYP = 5"), 1);
+    assert_int_equal(count_notes(&c, "G1 = 0.1 is read but not used with GEOTYP = 9"), 1);
+    assert_int_equal(count_notes(&c, "G3 = -1 is read but not used with GEOTYP = 11"), 1);
+    assert_int_equal(count_notes(&c, "G7 = 5 is read but not used with GEOTYP = 1"), 1);
+    assert_int_equal(count_notes(&c, "is read but not used with"), 5);
+    close_case(&c);
+}
+
+/* General x-y data: kept for a profile, told of if nothing uses it, never twice. */
+static void test_outlines(void **state)
+{
+    (void)state;
+    static const char outline[] = "*DEFINE_CURVE\n4,0,1,1,0,0,1\n0,0\n0,1\n1,1\n1,0\n";
+    char text[1000];
+    KeywordCase c;
+    snprintf(text, sizeof text, "%s" ENTITY("7,11,1", "0,4"), outline);
+    c = read_fine(text);
+    assert_true(c.d.outlines.count == 1 && c.d.outlines.items[0].x.count == 4 && c.d.curves.count == 0);
+    close_case(&c);
+    c = read_case(outline);
+    assert_true(c.status == 0 && c.g.warnings == 1);
+    assert_true(verify_message(&c.g, SEVERITY_WARNING, "curve 4 is general x-y data"));
+    close_case(&c);
+    snprintf(text, sizeof text, "%s%s", outline, "*DEFINE_CURVE\n4\n0,0\n1,1\n");
+    assert_one_error(text, 2, "*DEFINE_CURVE", "curve 4 is defined a second time (also in line 8)");
 }
 
 static const char model_head[] = "*CONTROL_TERMINATION\n1e-3\n"
@@ -64,6 +103,14 @@ static int build(const char *cards, VerifyRun *run)
     return verify_build(run, text, strlen(text), &(VerifyOptions){0});
 }
 
+static void check_messages(VerifyRun *run, const char *const *expected, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!verify_message(&run->diagnostics, SEVERITY_ERROR, expected[i])) fail_msg("no error: %s", expected[i]);
+    assert_int_equal(run->diagnostics.errors, count);
+    verify_free(run);
+}
+
 static void test_wrong_models(void **state)
 {
     (void)state;
@@ -72,14 +119,14 @@ static void test_wrong_models(void **state)
                                            "SSID = 44 is not a part",
                                            "no set 77",
                                            "SSID = 3 of type 1 holds no nodes",
-                                           "make no local system",
+                                           "A (AX, AY, AZ) = (1, 0, 0) and B (BX, BY, BZ) = (2, 0, 0) make no local",
                                            "the normal of the plane",
-                                           "the radius of the sphere (G4)",
+                                           "G4 = 0: the radius of the sphere must be positive",
                                            "the axis of the cylinder",
-                                           "the radius of the cylinder (G7)",
-                                           "the half axes",
-                                           "the order of the ellipsoid",
-                                           "the mesh of the part is not closed"};
+                                           "G7 = 0: the radius of the cylinder",
+                                           "G6 = -1: half an axis",
+                                           "G7 = 4, the order of the ellipsoid",
+                                           "the mesh of part 2 is not closed"};
     VerifyRun run;
     assert_true(
         build(ENTITY("9,2,1,1", "0,0,0,0,1") ENTITY("1,2,1,1", "0,0,0,0,1") ENTITY("2,2,44,1", "0,0,0,0,1")
@@ -89,9 +136,38 @@ static void test_wrong_models(void **state)
                           ENTITY("2,3,1,1", "0,0,0,0,0,0,1") ENTITY("2,4,1,1", "0,0,0,0,1,1,-1")
                               ENTITY("2,4,1,1", "0,0,0,0,1,1,1,4") ENTITY("2,9,1,1", "0"),
               &run) != 0);
-    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
-        if (!verify_message(&run.diagnostics, SEVERITY_ERROR, expected[i])) fail_msg("no error: %s", expected[i]);
-    assert_int_equal(run.diagnostics.errors, sizeof expected / sizeof *expected);
+    check_messages(&run, expected, sizeof expected / sizeof *expected);
+}
+
+#define PROFILE_CURVE(id, points) "*DEFINE_CURVE\n" id ",0,1,1,0,0,1\n" points
+
+static void test_wrong_sizes(void **state)
+{
+    (void)state;
+    static const char *const expected[] = {
+        "G4 = 0: the radius of the torus",
+        "G5 = -1: the radius of the tube",
+        "G5 = 2, the radius of the tube, is larger than G4 = 1",
+        "G1 = -2: the side of the finite plane along A",
+        "G2 = 0: the side of the finite plane along B",
+        "G1 = 33: there is no curve of this id",
+        "G1 = 4: the profile, point 2 at z = 1 with r = -1, has a radius below 0",
+        "G1 = 5: the profile, point 1 at z = 2 with r = 0, has less than two",
+        "G1 = 6: the profile, point 2 at z = 1 with r = 0, has a point on the axis",
+        "G1 = 7: the profile, point 2 at z = 1 with r = 2, crosses or touches itself",
+        "has no inside; let it run along the third axis"};
+    VerifyRun run;
+    assert_true(
+        build(ENTITY("2,5,1,1", "0,0,0,0,0,1") ENTITY("2,5,1,1", "0,0,0,0,1,-1") ENTITY("2,5,1,1", "0,0,0,0,1,2")
+                  ENTITY("2,10,1,1", "0,-2,1") ENTITY("2,10,1,1", "0,1") ENTITY("2,11,1,1", "0,33")
+                      ENTITY("2,11,1,1", "0,4") ENTITY("2,11,1,1", "0,5") ENTITY("2,11,1,1", "0,6")
+                          ENTITY("2,11,1,1", "0,7") ENTITY("2,11,1,1", "0,8") PROFILE_CURVE("4", "0,1\n1,-1\n")
+                              PROFILE_CURVE("5", "2,0\n") PROFILE_CURVE("6", "0,1\n1,0\n2,1\n")
+                                  PROFILE_CURVE("7", "0,1\n1,2\n1,1\n0,2\n") PROFILE_CURVE("8", "1,0\n1,3\n"),
+              &run) != 0);
+    check_messages(&run, expected, sizeof expected / sizeof *expected);
+    assert_true(build(ENTITY("2,5,1,1", "0,0,0,0,0,1"), &run) != 0); /* the card's line is in the message */
+    assert_int_equal(run.diagnostics.messages[0].source.line, 38);
     verify_free(&run);
 }
 
@@ -116,6 +192,42 @@ static void test_model(void **state)
     assert_int_equal(e[1].probe_count, 0); /* its own body's nodes */
     assert_true(verify_message(&run.diagnostics, SEVERITY_WARNING, "entity 2 has no nodes to act on"));
     verify_free(&run);
+}
+
+/* Where the shapes are, and what check says of them. */
+static void test_shapes(void **state)
+{
+    (void)state;
+    static Program program;
+    char text[6000];
+    static const char cards[] = "*CONTACT_ENTITY\n2,5,1,1\n\n1,2,3,0,1\n-1\n0,1,2,3,4,0.5\n"
+                                "2,10,1,1\n\n0.5,0.5,0.25,0,1\n-1\n0,2,3\n"
+                                "2,11,1,1\n\n0.5,0.5,0.25,1\n0,1\n0,9\n"
+                                "*DEFINE_CURVE\n9,0,1,2\n0,0\n0.5,1\n1.5,1\n";
+    int length = snprintf(text, sizeof text, "%s%s*END\n", model_head, cards);
+    VerifyRun run;
+    assert_int_equal(build(cards, &run), 0);
+    const ContactEntity *e = run.model.entities;
+    assert_true(e->shape == ENTITY_TORUS && fabs(e->origin[0] + 1) < 1e-14 && fabs(e->origin[1] - 3) < 1e-14 &&
+                fabs(e->origin[2] - 6) < 1e-14 && e->size[0] == 4 && e->size[1] == 0.5 && !e->open);
+    assert_true(e[1].open && e[1].origin[0] == 0.5 && e[1].size[0] == 1 && e[1].size[1] == 1.5);
+    assert_true(e[2].open && e[2].profile.edge_count == 2 && e[2].profile.end[0] == 2 && e[2].profile.end[1] == 1.5);
+    verify_free(&run);
+    program_open(&program);
+    program_write(&program, "shapes.k", text, (size_t)length);
+    assert_int_equal(program_run(&program, "check shapes.k"), BILLOW_EXIT_NORMAL);
+    const char *expected[] = {
+        "entity 1: torus on rigid part 2, at (-1, 3, 6), radius 4 of a tube of radius 0.5; 4 nodes",
+        "entity 2: finite plane on rigid part 2, at (0.5, 0.5, 0.25), 2 x 3, corners (2, -0.5, 0.25), (2, 1.5, 0.25), "
+        "(-1, 1.5, 0.25), (-1, -0.5, 0.25); 4 nodes\n    at the start 4 of them are behind it; it holds only what "
+        "comes "
+        "through it later",
+        "entity 3: body of revolution on rigid part 2, at (0.5, 0.5, 0.25), z from 0 to 1.5, radius up to 2, 2 edges, "
+        "open "
+        "at z = 1.5; 4 nodes\n    at the start none of them is within it"};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+        if (!strstr(program.out, expected[i])) fail_msg("%s\nlacks: %s", program.out, expected[i]);
+    program_close(&program);
 }
 
 /* What check says, and gceout of a run: a sheet that lies on a driven sphere's place pushes it. */
@@ -186,8 +298,15 @@ static void test_rigid_shapes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cards), cmocka_unit_test(test_wrong_fields),       cmocka_unit_test(test_wrong_models),
-        cmocka_unit_test(test_model), cmocka_unit_test(test_report_and_results), cmocka_unit_test(test_rigid_shapes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cards),
+                                       cmocka_unit_test(test_wrong_fields),
+                                       cmocka_unit_test(test_notes),
+                                       cmocka_unit_test(test_outlines),
+                                       cmocka_unit_test(test_wrong_models),
+                                       cmocka_unit_test(test_wrong_sizes),
+                                       cmocka_unit_test(test_model),
+                                       cmocka_unit_test(test_shapes),
+                                       cmocka_unit_test(test_report_and_results),
+                                       cmocka_unit_test(test_rigid_shapes)};
     return cmocka_run_group_tests_name("cards of contact entities", tests, NULL, NULL);
 }
