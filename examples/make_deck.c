@@ -56,6 +56,11 @@ static void make_impactor_box(Scene *scene, const Options *options)
     scene_impactor(scene, options->n, SCENE_BOX, 0);
 }
 
+static void make_impactor_capsule(Scene *scene, const Options *options)
+{
+    scene_impactor(scene, options->n, SCENE_CAPSULE, 0);
+}
+
 static void make_pressed_bag(Scene *scene, const Options *options)
 {
     scene_folding_bag(scene, options->n, 20000);
@@ -127,6 +132,7 @@ static const struct SceneName {
     {"folding-bag", "driver bag to be folded, blown up by an inflator and damped (-n rings)", make_folding_bag},
     {"wall-bag", "driver bag to be folded, deploys against itself and a wall (-n rings)", make_wall_bag},
     {"impactor-sphere", "a sphere drops on a vented cushion (-n cells per side)", make_impactor_sphere},
+    {"impactor-capsule", "a lying capsule drops on a vented cushion (-n cells per side)", make_impactor_capsule},
     {"impactor-box", "a box of a head's size drops on a vented cushion (-n cells per side)", make_impactor_box},
     {"pressed-bag", "the same under a constant pressure of 20 kPa (-n rings)", make_pressed_bag},
     {"landing-pad", "ring-shaped landing pad with a nozzle (-n cells across)", make_landing_pad},

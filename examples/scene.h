@@ -249,13 +249,16 @@ void scene_prestressed_cushion(Scene *scene, int n);
 void scene_sewn_bag(Scene *scene, int n);
 
 typedef enum SceneStriker {
-    SCENE_BOX,            /* of a head's size, six shells */
-    SCENE_FACETED_SPHERE, /* the faces of 6 facets^2 shells */
-    SCENE_SPHERE,         /* the same shells, but a smooth sphere meets the cushion */
+    SCENE_BOX,             /* of a head's size, six shells */
+    SCENE_FACETED_SPHERE,  /* the faces of 6 facets^2 shells */
+    SCENE_SPHERE,          /* the same shells, but a smooth sphere meets the cushion */
+    SCENE_CAPSULE,         /* two spheres and a tube between them meet it */
+    SCENE_CAPSULE_PROFILE, /* the same by one body of revolution of many edges */
+    SCENE_BOX_MESH,        /* the box as a convex mesh that nodes meet */
 } SceneStriker;
 
-/* A cushion of n x n squares a side (n = 0: 24) that is blown up on the floor; a rigid sphere or box drops on it (part
- * 3). The bag vents when it is pressed. facets of a sphere: 0 for 6. */
+/* A cushion of n x n squares a side (n = 0: 24) that is blown up on the floor; a rigid sphere, box or capsule drops on
+ * it (part 3). The bag vents when it is pressed. facets of a sphere: 0 for 6. */
 void scene_impactor(Scene *scene, int n, SceneStriker striker, int facets);
 
 /* A square bag of 4 n^2 triangles (n a multiple of 4; 0: 72) folded in eight layers, gap apart (0: their thickness),

@@ -2,6 +2,11 @@
 #include "examples/scene.h"
 
 #include <math.h>
+#include <stdio.h>
+
+#include "solver/elementary.h"
+
+#define PI 3.14159265358979323846
 
 enum { PART_TOP = 1, PART_BOTTOM, PART_IMPACTOR };
 
@@ -27,56 +32,118 @@ static double part_area(const SceneMesh *mesh, int part)
     return area;
 }
 
-static const double radius = 0.0825;
+static const double radius = 0.0825, capsule_radius = 0.06, capsule_half = 0.04;
 
-/* A sphere of 0.165 m, or a box of a head's size, above the cushion's middle. */
-static void add_impactor(SceneMesh *mesh, bool box, int facets, double middle, double bottom)
+static bool is_box(SceneStriker striker)
+{
+    return striker == SCENE_BOX || striker == SCENE_BOX_MESH;
+}
+
+static bool is_capsule(SceneStriker striker)
+{
+    return striker == SCENE_CAPSULE || striker == SCENE_CAPSULE_PROFILE;
+}
+
+/* From the lowest point of a round impactor to its middle. */
+static double middle_height(SceneStriker striker)
+{
+    return is_capsule(striker) ? capsule_radius : radius;
+}
+
+/* A sphere of 0.165 m, a box of a head's size, or a lying capsule as long as the box, above the cushion's middle. */
+static void add_impactor(SceneMesh *mesh, SceneStriker striker, int facets, double middle, double bottom)
 {
     const double size[3] = {0.20, 0.15, 0.12};
     const int first = mesh->node_count;
+    const bool box = is_box(striker);
     if (box)
         scene_add_box(mesh, PART_IMPACTOR, PART_IMPACTOR, PART_IMPACTOR, size[0], size[1], size[2]);
     else
-        scene_add_sphere(mesh, PART_IMPACTOR, SCENE_QUADS, facets, radius);
+        scene_add_sphere(mesh, PART_IMPACTOR, SCENE_QUADS, facets, middle_height(striker));
+    for (int i = first; i < mesh->node_count && is_capsule(striker); i++) {
+        double *x = mesh->x + 3 * i;
+        if (fabs(x[0]) > 1e-9) x[0] += x[0] > 0 ? capsule_half : -capsule_half;
+    }
     const double shift[3] = {middle - (box ? 0.5 * size[0] : 0.0), middle - (box ? 0.5 * size[1] : 0.0),
-                             bottom + (box ? 0.0 : radius)};
+                             bottom + (box ? 0.0 : middle_height(striker))};
     scene_transform(mesh, first, (const double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}, shift);
 }
 
-/* What the cushion meets: the sphere itself, or the faces of the impactor's shells. */
+/* A shape on the impactor that meets nodes and 2 x 2 points in each shell of both panels; its third axis along z or, if
+ * it lies, along x. g: the coefficients' count and values. */
+static void write_entity(SceneText *deck, int shape, const double centre[3], bool lies, int count, const double *g)
+{
+    scene_print(deck, "*CONTACT_ENTITY\n");
+    SCENE_CARD(deck, PART_IMPACTOR, shape, 1, 2, 1, 0, 0.3, 2);
+    SCENE_CARD(deck, 0, 1e20, 0, 0, 1);
+    SCENE_CARD(deck, centre[0], centre[1], centre[2], lies ? 0 : 1, lies ? 1 : 0, 0);
+    SCENE_CARD(deck, 0, lies ? 0 : 1, lies ? 1 : 0);
+    double fields[8] = {0};
+    for (int k = 0; k < count; k++) fields[k + 1] = g[k];
+    scene_card(deck, count + 1, fields);
+}
+
+/* The outline of the capsule: the tube alone, or with its round ends by many points. */
+static void write_outline(SceneText *deck, bool ends)
+{
+    enum { ROUND = 60 };
+    double points[2 * (2 * ROUND + 2)];
+    int count = 0;
+    for (int end = 0; end < 2; end++)
+        for (int i = 0; i <= (ends ? ROUND : 0); i++) {
+            double angle = 0.5 * PI * (ends ? (double)(end == 0 ? ROUND - i : i) / ROUND : 0.0);
+            bool tip = ends && i == (end == 0 ? 0 : ROUND);
+            points[count++] = (end == 0 ? -1 : 1) * (capsule_half + capsule_radius * elementary_sin(angle));
+            points[count++] = tip ? 0.0 : capsule_radius * elementary_cos(angle);
+        }
+    scene_write_curve(deck, 3, count / 2, points);
+}
+
+static void write_capsule(SceneText *deck, SceneStriker striker, const double centre[3])
+{
+    write_outline(deck, striker == SCENE_CAPSULE_PROFILE);
+    scene_print(deck, "$ a %s meets nodes and 2 x 2 points in each shell of both panels\n",
+                striker == SCENE_CAPSULE ? "tube with a sphere on each end" : "capsule by its outline");
+    write_entity(deck, 11, centre, true, 1, (const double[]){3});
+    for (int end = -1; end <= 1 && striker == SCENE_CAPSULE; end += 2)
+        write_entity(deck, 2, centre, true, 4, (const double[]){0, 0, end * capsule_half, capsule_radius});
+}
+
+/* What the cushion meets: smooth shapes, the mesh as one convex body, or the faces of the impactor's shells. */
 static void write_contact(SceneText *deck, SceneStriker striker, double middle, double bottom)
 {
-    if (striker != SCENE_SPHERE) {
+    const double centre[3] = {middle, middle, bottom + middle_height(striker)}, none[3] = {0, 0, 0};
+    if (is_capsule(striker)) {
+        write_capsule(deck, striker, centre);
+    } else if (striker == SCENE_BOX_MESH) {
+        write_entity(deck, 9, none, false, 0, none);
+    } else if (striker == SCENE_SPHERE) {
+        scene_print(deck, "$ a sphere on the impactor meets nodes and 2 x 2 points in each shell of both panels\n");
+        write_entity(deck, 2, none, false, 4, (const double[]){centre[0], centre[1], centre[2], radius});
+    } else {
         scene_print(deck, "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n");
         SCENE_CARD(deck, 1, PART_IMPACTOR, 2, 3);
         SCENE_CARD(deck, 0.3, 0.3);
         SCENE_CARD(deck, 1, 1, 0, striker == SCENE_BOX ? 0 : 1e-6);
-        return;
     }
-    scene_print(
-        deck,
-        "*CONTACT_ENTITY\n$ a sphere on the impactor meets nodes and 2 x 2 points in each shell of both panels\n");
-    SCENE_CARD(deck, PART_IMPACTOR, 2, 1, 2, 1, 0, 0.3, 2);
-    SCENE_CARD(deck, 0, 1e20, 0, 0, 1);
-    SCENE_CARD(deck, 0, 0, 0, 1, 0, 0);
-    SCENE_CARD(deck, 0, 1, 0);
-    SCENE_CARD(deck, 0, middle, middle, bottom + radius, radius);
 }
 
 void scene_impactor(Scene *scene, int n, SceneStriker striker, int facets)
 {
     const double side = 0.6, height = 0.16, bottom = 2.0 * height + 0.24, mass = 6.8, speed = 4.0;
-    const bool box = striker == SCENE_BOX;
+    static const char *const titles[] = {"box of a head's size", "sphere", "sphere", "capsule", "capsule",
+                                         "box of a head's size"};
+    char title[80];
+    snprintf(title, sizeof title, "%s drops on a vented cushion", titles[striker]);
     SceneText *deck = &scene->deck;
     if (n <= 0) n = 24;
     if (facets <= 0) facets = 6;
     scene_add_rectangle(&scene->mesh, PART_TOP, SCENE_QUADS, n, n, side, side);
     scene_transform(&scene->mesh, 0, (const double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}, (const double[]){0, 0, height});
     scene_sew_copy(&scene->mesh, PART_BOTTOM, select_edge, &side);
-    add_impactor(&scene->mesh, box, facets, 0.5 * side, bottom);
+    add_impactor(&scene->mesh, striker, facets, 0.5 * side, bottom);
 
-    scene_begin(deck, box ? "box of a head's size drops on a vented cushion" : "sphere drops on a vented cushion",
-                0.200, 0.9);
+    scene_begin(deck, title, 0.200, 0.9);
     scene_write_output(deck, 5e-4, 5e-4, 5e-3);
     scene_print(deck, "*DATABASE_RBDOUT\n");
     SCENE_CARD(deck, 1e-4);

@@ -3,19 +3,21 @@
 
 usage: sweep.py BUILD_FOLDER [-o impactor-drop.png] [-j THREADS]
 
-Needs python3-matplotlib for the plot. Each run takes a second or two; all takes half a minute.
+Needs python3-matplotlib for the plot. Each run takes a second or two; all takes half a minute. The impactors may be
+chosen: --impactors sphere box capsule.
 """
 import argparse
 import csv
 import pathlib
 import subprocess
+import sys
 import tempfile
 
 GRAVITY = 9.81
 COEFFICIENTS = (0, 0.2, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0)
 AREA = 2e-3  # A23 of the deck [m2]
 MEAN = 3e-3  # span of the mean acceleration [s]
-IMPACTORS = {"sphere": 0.0825, "box": 0.06}  # from the centre down to the lowest point [m]
+IMPACTORS = {"sphere": 0.0825, "box": 0.06, "capsule": 0.06}  # from the centre down to the lowest point [m]
 
 
 def with_coefficient(deck, coefficient):
@@ -35,12 +37,13 @@ def judge(path, drop):
     return max(r[3] for r in rows) / GRAVITY, max(means) / GRAVITY, min(r[1] for r in rows) - drop, rows[-1][2]
 
 
-def sweep(build, threads):
+def sweep(build, threads, impactors):
     """One row per run: impactor, leakage [cm2], peak [g], 3 ms value [g], clearance [m], last velocity [m/s]."""
     rows = []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for impactor, drop in IMPACTORS.items():
+        for impactor in impactors:
+            drop = IMPACTORS[impactor]
             made = subprocess.run([build / "make_deck", f"impactor-{impactor}"], check=True, capture_output=True, text=True)
             for coefficient in COEFFICIENTS:
                 deck, results = folder / "drop.k", folder / "drop"
@@ -55,12 +58,12 @@ def sweep(build, threads):
 
 def draw(rows, path):
     """Accelerations above, clearance below, over the leakage."""
-    import matplotlib
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(6, 6))
-    for impactor, mark in zip(IMPACTORS, "os"):
+    for impactor, mark in zip(IMPACTORS, "os^"):
         mine = [r for r in rows if r[0] == impactor]
+        if not mine:
+            continue
         line, = upper.plot([r[1] for r in mine], [r[3] for r in mine], marker=mark, label=f"{impactor}, 3 ms")
         upper.plot([r[1] for r in mine], [r[2] for r in mine], marker=mark, markersize=3, linestyle=":",
                    color=line.get_color(), label=f"{impactor}, peak")
@@ -81,8 +84,14 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("-o", "--output", default="impactor-drop.png")
     parser.add_argument("-j", "--threads", type=int, default=1)
+    parser.add_argument("--impactors", nargs="+", choices=IMPACTORS, default=["sphere", "box"])
     options = parser.parse_args()
-    draw(sweep(options.build.resolve(), options.threads), options.output)
+    try:  # before half a minute of runs
+        import matplotlib
+    except ImportError:
+        sys.exit(f"{sys.executable} has no matplotlib; install python3-matplotlib and use the system's python3")
+    matplotlib.use("Agg")
+    draw(sweep(options.build.resolve(), options.threads, options.impactors), options.output)
 
 
 if __name__ == "__main__":
