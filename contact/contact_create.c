@@ -19,6 +19,7 @@ static int list_create(ContactList *list, int owners)
     list->sums = memory_alloc(groups + 1, sizeof *list->sums);
     list->pieces = memory_alloc(groups + 1, sizeof *list->pieces);
     list->passages = memory_alloc(groups + 1, sizeof *list->passages);
+    list->candidates = memory_alloc(groups + 1, sizeof *list->candidates);
     list->start = memory_alloc(groups + 1, sizeof *list->start);
     list->next_start = memory_alloc(groups + 1, sizeof *list->next_start);
     list->deepest = memory_alloc(groups + 1, sizeof *list->deepest);
@@ -28,13 +29,15 @@ static int list_create(ContactList *list, int owners)
     list->partner = memory_alloc((size_t)owners * CONTACT_SLOTS + 1, sizeof *list->partner);
     list->depth = memory_alloc((size_t)owners + 1, sizeof *list->depth);
     return list->sums && list->pieces && list->passages && list->start && list->next_start && list->deepest &&
-                   list->holds && list->memory && list->held && list->partner && list->depth
+                   list->holds && list->candidates && list->memory && list->held && list->partner && list->depth
                ? 0
                : -1;
 }
 
 static void list_free(ContactList *list)
 {
+    for (int g = 0; list->candidates && g < list->group_count; g++) contact_candidates_free(&list->candidates[g]);
+    memory_free(list->candidates);
     memory_free(list->memory);
     memory_free(list->held);
     memory_free(list->holds);
@@ -72,6 +75,8 @@ void contact_free(ContactLoop *loop)
         contact_pairs_free(&loop->parts[k].pairs);
         memory_free(loop->parts[k].force);
         memory_free(loop->parts[k].near);
+        memory_free(loop->parts[k].limit);
+        contact_sorting_free(&loop->parts[k].sorting);
         memory_free(loop->parts[k].other);
         memory_free(loop->parts[k].pull);
         memory_free(loop->parts[k].found.item);

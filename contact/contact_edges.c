@@ -71,7 +71,7 @@ static double closing_speed(const double *v, const int32_t *a, const int32_t *b)
         for (int k = 0; k < 2; k++) {
             double u[3];
             vector3_subtract(v + 3 * (ptrdiff_t)a[i], v + 3 * (ptrdiff_t)b[k], u);
-            most = fmax(most, vector3_dot(u, u));
+            most = larger(most, vector3_dot(u, u));
         }
     return sqrt(most);
 }
@@ -81,7 +81,6 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
 {
     const ContactInterface *c = run->contact;
     ContactMemory fresh = {0}, *m = contact_recall(&run->edges, e, f);
-    if (!m && !contact_edges_meet(loop->model, c, e, f)) return;
     if (!m) m = &fresh;
     const int32_t *a = c->edge + 2 * (ptrdiff_t)e, *b = c->edge + 2 * (ptrdiff_t)f;
     const double *p[4];
@@ -91,9 +90,11 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     edge_ends(c, loop->state->x, e, f, p);
     if (!cross_edges(&cross, p, reach, m->side ? SLACK : 0.0)) {
         if (m->side) note_ended(passages, e, f, m);
-        *m = (ContactMemory){0};
+        if (m != &fresh) *m = fresh;
         return;
     }
+    const double *inverse = loop->model->contact_inverse;
+    if (m == &fresh && !(contact_moves(inverse, a[0], a + 1, 1) || contact_moves(inverse, b[0], b + 1, 1))) return;
     ContactTouch t = {.node = {a[0], a[1], b[0], b[1]},
                       .weight = {1.0 - cross.s, cross.s, cross.t - 1.0, -cross.t},
                       .thickness = thickness,
@@ -183,8 +184,8 @@ void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     *sums = (ContactSums){0};
     list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
     passages->count = 0;
-    contact_find_near(loop, run, true, group, thread);
-    if (contact_sort_near(part, list, group, lanes, start)) part->failed = true;
+    if (list->holds[group]) contact_fetch(list, lanes);
+    contact_find_near(loop, run, true, group, thread, start);
     if (part->failed || start[CONTACT_GROUP] == 0) return;
     ContactForce *forces = contact_force_room(part, (size_t)start[CONTACT_GROUP]);
     if (!forces) return;

@@ -142,17 +142,18 @@ static double closing_speed(const double *v, int32_t node, const int32_t corner[
     for (int i = 0; i < 3; i++) {
         double u[3];
         vector3_subtract(v + 3 * (ptrdiff_t)corner[i], v + 3 * (ptrdiff_t)node, u);
-        most = fmax(most, vector3_dot(u, u));
+        most = larger(most, vector3_dot(u, u));
     }
     return sqrt(most);
 }
 
-/* Of the triangles [first, end) of others those that the node may touch in this step. */
+/* Of the triangles [first, end) of others those that the node may touch in this step. What it has no memory of it may
+ * meet (contact/near_kernels.c). */
 static int look_around(const ContactLoop *loop, ContactRun *run, int i, const int32_t *other, int others,
                        NearFace *near)
 {
     const ContactInterface *c = run->contact;
-    const double *x = loop->state->x, *at = x + 3 * (ptrdiff_t)c->node[i];
+    const double *x = loop->state->x, *at = x + 3 * (ptrdiff_t)c->node[i], *inverse = loop->model->contact_inverse;
     double depth = run->faces.depth[i]; /* behind a surface: the next triangle may be as far away */
     int count = 0;
     for (int k = 0; k < others; k++) {
@@ -165,7 +166,7 @@ static int look_around(const ContactLoop *loop, ContactRun *run, int i, const in
         double reach = thickness + closing_speed(loop->state->v, c->node[i], f->at.corner) * loop->step.longer + depth;
         if (f->memory)
             reach += contact_deepest(c);
-        else if (!contact_node_meets(loop->model, c, i, t))
+        else if (!contact_moves(inverse, c->node[i], f->at.corner, 3))
             continue;
         if (closest_point(&f->at, at, x, reach, &bound) && count < MOST_NEAR - 1)
             count++;
@@ -236,6 +237,12 @@ static void meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     contact_count_held(&run->faces, i);
 }
 
+/* No node of the group has anything near it. */
+static void forget_depths(ContactList *list, const ContactLanes *lanes)
+{
+    for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) list->depth[lanes->item[k]] = 0.0;
+}
+
 void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int group, int thread)
 {
     ContactList *list = &run->faces;
@@ -243,12 +250,16 @@ void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     ContactSums *sums = &list->sums[group];
     const ContactLanes *lanes = &run->nodes.lanes[group];
     int start[CONTACT_GROUP + 1];
-    contact_find_near(loop, run, false, group, thread);
+    if (list->holds[group]) contact_fetch(list, lanes);
     *sums = (ContactSums){0};
     list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
+    contact_find_near(loop, run, false, group, thread, start);
     list->deepest[group] = 0.0;
-    if (contact_sort_near(part, list, group, lanes, start)) part->failed = true;
-    if (part->failed || start[CONTACT_GROUP] == 0) return;
+    if (part->failed) return;
+    if (start[CONTACT_GROUP] == 0) {
+        forget_depths(list, lanes);
+        return;
+    }
     ContactForce *forces = contact_force_room(part, (size_t)CONTACT_GROUP * MOST_NEAR);
     if (!forces) return;
     for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) {
@@ -257,7 +268,7 @@ void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *la
             list->depth[i] = 0.0;
         else
             meet_node(loop, run, law, i, part->other + start[k], start[k + 1] - start[k], sums, forces);
-        list->deepest[group] = fmax(list->deepest[group], list->depth[i]);
+        list->deepest[group] = larger(list->deepest[group], list->depth[i]);
     }
     part->force_count += (size_t)sums->count;
 }

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "contact/contact_candidates.h"
 #include "contact/contact_grid.h"
 #include "contact/contact_motion.h"
 #include "contact/motion_kernels.h"
@@ -61,8 +62,9 @@ typedef struct ContactSums {
 /* Pairs of groups that may meet: owners of one, others of the second. */
 typedef struct ContactGroupPairs {
     int32_t *other;
-    float *slack; /* by so much they may yet come nearer before two of their items touch [L] */
-    size_t other_capacity, slack_capacity;
+    float *slack;      /* by so much they may yet come nearer before two of their items touch [L] */
+    ContactKept *kept; /* what each has kept of its last look */
+    size_t other_capacity, slack_capacity, kept_capacity;
 } ContactGroupPairs;
 
 /* Pairs of one kind and what becomes of them in a cycle. */
@@ -76,7 +78,8 @@ typedef struct ContactList {
     double *deepest;         /* of each group (group_count) [L] */
     int32_t *start;          /* of each group in pairs (group_count + 1) */
     ContactGroupPairs pairs; /* ascending (start[group_count]) */
-    int32_t *next_start;     /* workspace of the search: the new list */
+    ContactCandidates *candidates; /* of each group (group_count) */
+    int32_t *next_start;           /* workspace of the search: the new list */
     ContactGroupPairs next;
     ContactPiece *pieces;      /* (group_count) */
     ContactSums *sums;         /* (group_count) */
@@ -96,6 +99,17 @@ static inline ContactMemory *contact_recall(const ContactList *list, int owner, 
     for (int k = 0; k < list->held[owner]; k++)
         if (partner[k] == other && contact_slot(list, owner, k)->side) return contact_slot(list, owner, k);
     return NULL;
+}
+
+/* Memories of a group's owners are asked for before they are needed: they lie far apart. */
+static inline void contact_fetch(const ContactList *list, const ContactLanes *lanes)
+{
+    for (int i = 0; i < CONTACT_GROUP && lanes->item[i] >= 0; i++)
+        for (int k = 0; k < list->held[lanes->item[i]]; k++) {
+            const char *at = (const char *)contact_slot(list, lanes->item[i], k);
+            __builtin_prefetch(at);
+            __builtin_prefetch(at + sizeof(ContactMemory) - 1);
+        }
 }
 
 /* Gives a pair a memory; one too many is let go. */
@@ -161,9 +175,10 @@ typedef struct ContactPart {
     ContactFound found;
     ContactForce *force;
     size_t force_count, force_capacity;
-    ContactNearby *near; /* pairs of one group of owners that may touch, in the order of its group pairs */
-    size_t near_count, near_capacity;
-    int32_t *other; /* the same, of each owner in turn, with room for those in contact */
+    ContactSorting sorting;
+    float *near, *limit; /* gaps within which items may touch, of one group of owners: by pairs, by slots [L] */
+    size_t near_capacity, limit_capacity;
+    int32_t *other; /* what each owner of a group may touch in this step and what it remembers */
     size_t other_capacity;
     ContactLook look;
     ContactPull *pull; /* what its pairs have asked for (node_count) */
@@ -251,13 +266,11 @@ struct ContactLaw;
 void contact_meet_faces(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int group, int thread);
 void contact_meet_edges(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int group, int thread);
 
-/* Looks at what a group of owners may touch in this step: fills near of the thread's part (contact/contact_near.c). */
-void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread);
-
-/* The others of each owner in near and in memory, ascending: those of lane k of the group are other[start[k]] to
- * other[start[k + 1]] of the part. -1 without memory. */
-int contact_sort_near(ContactPart *part, ContactList *list, int group, const ContactLanes *lanes,
-                      int start[CONTACT_GROUP + 1]);
+/* What a group of owners may touch in this step, and what it remembers, ascending (contact/contact_near.c): those of
+ * lane k of the group are other[start[k]] to other[start[k + 1]] of the thread's part, which has failed without memory.
+ */
+void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread,
+                       int start[CONTACT_GROUP + 1]);
 
 /* Room for more forces of a thread; NULL without memory. */
 ContactForce *contact_force_room(ContactPart *part, size_t more);

@@ -71,10 +71,10 @@ int contact_groups_create(ContactGroups *groups, const ContactItems *items, cons
     groups->radius = memory_alloc(count, sizeof *groups->radius);
     groups->side = memory_alloc(count, 1);
     groups->body = memory_alloc(count, sizeof *groups->body);
-    groups->idle = memory_alloc(count, 1);
+    groups->sharp = memory_alloc(count, sizeof *groups->sharp);
     groups->watched = memory_alloc(count, 1);
     if (!groups->lanes || !groups->start || !groups->node || !groups->low[0] || !groups->box || !groups->radius ||
-        !groups->side || !groups->body || !groups->idle || !groups->watched)
+        !groups->side || !groups->body || !groups->sharp || !groups->watched)
         return -1;
     for (int g = 0; g < groups->count; g++) {
         int first = g * CONTACT_GROUP, left = items->count - first;
@@ -125,7 +125,7 @@ void contact_groups_free(ContactGroups *groups)
     memory_free(groups->radius);
     memory_free(groups->side);
     memory_free(groups->body);
-    memory_free(groups->idle);
+    memory_free(groups->sharp);
     memory_free(groups->watched);
     *groups = (ContactGroups){0};
 }

@@ -60,7 +60,6 @@ typedef struct ContactLanes {
     int32_t side[CONTACT_GROUP];
     int32_t body[CONTACT_GROUP];  /* rigid body; another number for each deformable item */
     int32_t shell[CONTACT_GROUP]; /* element; another number for each item without */
-    int32_t sharp[CONTACT_GROUP]; /* of edges: the surface is turned there */
 } ContactLanes;
 
 typedef struct ContactGroups {
@@ -73,7 +72,7 @@ typedef struct ContactGroups {
     double *radius;          /* largest of its items (count) [L] */
     unsigned char *side;     /* of all its items (count) */
     int32_t *body;           /* of all its items, or CONTACT_MIXED (count) */
-    unsigned char *idle;     /* edges none of which is sharp (count) */
+    uint16_t *sharp;         /* lanes whose edges are sharp (count) */
     unsigned char *watched;  /* it is in a pair: its velocity is kept (count) */
 } ContactGroups;
 

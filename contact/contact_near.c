@@ -3,60 +3,103 @@
 #include "contact/contact_pairs.h"
 #include "solver/memory.h"
 
-/* Keeps what a look has found. */
-static void keep_found(ContactPart *part)
-{
-    const ContactLook *look = &part->look;
-    if (memory_reserve((void **)&part->near, &part->near_capacity, part->near_count + (size_t)look->count + 1,
-                       sizeof *part->near)) {
-        part->failed = true;
-        return;
-    }
-    for (int k = 0; k < look->count; k++) part->near[part->near_count++] = look->found[k];
-}
+/* Steps at the speed at which two groups close now that their candidates shall last, and the most that these go beyond
+ * what a step needs, in thicknesses. */
+#define CANDIDATE_STEPS 12.0
+#define CANDIDATE_THICKNESSES 3.0
 
-/* Looks closely at one pair of groups, of which two points may come nearer by step. Returns their slack. */
-static double look_at(ContactLoop *loop, ContactRun *run, bool edges, int group, int other, double step, int thread)
+/* Rounding of what is added up in single precision. */
+#define ROUND_UP (1.0f + 1e-6f)
+
+/* A group of owners and what it may meet. */
+typedef struct NearGroup {
+    ContactList *list;
+    const ContactGroups *own, *all;
+    int group, pairs;
+    const int32_t *other; /* of its pairs (pairs), and so on */
+    float *slack;
+    ContactKept *kept;
+    float longer, deepest;
+    bool edges;
+} NearGroup;
+
+/* Looks closely at pair k, of which two points may come nearer by step: at all that may touch and some more. */
+static int look_at(const ContactLoop *loop, const NearGroup *near, int k, double step, ContactPart *part)
 {
-    const ContactList *list = edges ? &run->edges : &run->faces;
-    const ContactGroups *own = edges ? &run->lines : &run->nodes, *all = edges ? &run->lines : &run->triangles;
-    ContactPart *part = &loop->parts[thread];
     ContactLook *look = &part->look;
-    double thickness = own->radius[group] + all->radius[other];
+    ContactKept *kept = &near->kept[k];
+    double thickness = near->own->radius[near->group] + near->all->radius[near->other[k]];
+    double steps = CANDIDATE_STEPS * step, most = CANDIDATE_THICKNESSES * thickness, more = steps < most ? steps : most;
     look->x = loop->state->x;
-    look->depth = list->depth;
-    look->deepest = list->deepest[group];
-    look->owners = &own->lanes[group];
-    look->others = &all->lanes[other];
-    look->reach = thickness + step;
-    (edges ? loop->kernels->edges : loop->kernels->faces)(look);
-    if (look->count > 0) keep_found(part);
-    return look->nearest - thickness;
+    look->depth = near->list->depth;
+    look->deepest = near->list->deepest[near->group];
+    look->owners = &near->own->lanes[near->group];
+    look->others = &near->all->lanes[near->other[k]];
+    look->own_sharp = near->own->sharp[near->group];
+    look->other_sharp = near->all->sharp[near->other[k]];
+    look->reach = thickness + look->deepest + (more > step ? more : step) * (1.0 + 1e-5);
+    (near->edges ? loop->kernels->edges : loop->kernels->faces)(look);
+    near->slack[k] = contact_slack(look->nearest - thickness);
+    kept->slack = near->slack[k];
+    kept->own = (uint16_t)look->own_sharp, kept->other = (uint16_t)look->other_sharp;
+    return contact_candidates_find(&part->sorting, kept, k, look, thickness);
 }
 
-void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread)
+/* Wakes pairs of the group and looks at those of which not all is known that is near. In part->near are the gaps within
+ * which two items may touch, of the pairs that are awake, else -FLT_MAX. Returns 1 if some may, -1 without memory. */
+static int wake_pairs(const ContactLoop *loop, const NearGroup *near, float before, ContactPart *part)
 {
-    ContactList *list = edges ? &run->edges : &run->faces;
-    ContactWatch watch = {.own = edges ? &run->lines : &run->nodes,
-                          .others = edges ? &run->lines : &run->triangles,
-                          .group = group,
-                          .before = (float)loop->step.before,
-                          .longer = (float)loop->step.longer,
-                          .deepest = (float)list->deepest[group]};
-    loop->parts[thread].near_count = 0;
-    for (int32_t first = list->start[group], end = list->start[group + 1]; first < end; first += CONTACT_GROUP) {
-        int count = end - first < CONTACT_GROUP ? end - first : CONTACT_GROUP;
-        const int32_t *other = list->pairs.other + first;
-        float *slack = list->pairs.slack + first;
+    ContactWatch watch = {.own = near->own,
+                          .others = near->all,
+                          .group = near->group,
+                          .before = before,
+                          .longer = near->longer,
+                          .deepest = near->deepest};
+    int some = 0;
+    part->sorting.count = 0;
+    for (int first = 0; first < near->pairs; first += CONTACT_GROUP) {
+        int count = near->pairs - first < CONTACT_GROUP ? near->pairs - first : CONTACT_GROUP;
         _Alignas(64) float speed[CONTACT_GROUP];
-        unsigned awake = loop->motion_kernels->wake(&watch, other, slack, count, speed);
+        unsigned awake = loop->motion_kernels->wake(&watch, near->other + first, near->slack + first, count, speed);
+        for (int k = 0; k < count; k++) part->near[first + k] = -FLT_MAX;
         for (; awake; awake &= awake - 1) {
-            int k = __builtin_ctz(awake);
-            if (watch.own->idle[group] && watch.others->idle[other[k]]) continue; /* until an edge is sharp */
-            double step = (double)speed[k] * loop->step.longer;
-            slack[k] = contact_slack(look_at(loop, run, edges, group, other[k], step, thread));
+            int k = first + __builtin_ctz(awake);
+            unsigned own = near->own->sharp[near->group], other = near->all->sharp[near->other[k]];
+            ContactKept *kept = &near->kept[k];
+            if (near->edges && !own && !other) continue; /* until an edge is sharp */
+            float step = speed[k - first] * near->longer * ROUND_UP;
+            float gap = contact_kept_way(kept, near->slack[k]) + step;
+            bool known = kept->own == own && kept->other == other && gap + near->deepest <= kept->within;
+            if (!known && look_at(loop, near, k, (double)step, part)) return -1;
+            if (kept->slot == CONTACT_NO_SLOT) continue;
+            part->near[k] = known ? gap : step;
+            some = 1;
         }
     }
+    return some;
+}
+
+/* Gaps within which candidates of each slot may touch, from those of the pairs. 0, or -1 without memory. */
+static int limit_slots(const NearGroup *near, const ContactCandidates *all, ContactPart *part)
+{
+    if (memory_reserve((void **)&part->limit, &part->limit_capacity, (size_t)all->slots + 1, sizeof *part->limit))
+        return -1;
+    for (int32_t s = 0; s < all->slots; s++) part->limit[s] = -FLT_MAX;
+    for (int k = 0; k < near->pairs; k++)
+        if (near->kept[k].slot >= 0) part->limit[near->kept[k].slot] = part->near[k] * ROUND_UP;
+    return 0;
+}
+
+/* Wakes pairs and brings the group's candidates up to date. Returns 1 if some of them may touch, -1 without memory. */
+static int renew_candidates(const ContactLoop *loop, const NearGroup *near, ContactPart *part)
+{
+    ContactCandidates *all = &near->list->candidates[near->group];
+    if (memory_reserve((void **)&part->near, &part->near_capacity, (size_t)near->pairs + 1, sizeof *part->near))
+        return -1;
+    int some = wake_pairs(loop, near, (float)loop->step.before, part);
+    if (some <= 0) return some;
+    if (part->sorting.count > 0 && contact_candidates_merge(all, near->kept, near->pairs, &part->sorting)) return -1;
+    return limit_slots(near, all, part) ? -1 : 1;
 }
 
 /* Adds the others that an owner remembers, in their places, and leaves out doubles. Returns how many there are now. */
@@ -81,33 +124,57 @@ static bool remembers(const ContactList *list, const ContactLanes *lanes)
     return false;
 }
 
-int contact_sort_near(ContactPart *part, ContactList *list, int group, const ContactLanes *lanes,
-                      int start[CONTACT_GROUP + 1])
+/* The candidates of each owner that may touch, if there are some, and what it remembers. */
+static int list_others(const ContactLoop *loop, const NearGroup *near, bool some, ContactPart *part,
+                       int start[CONTACT_GROUP + 1])
 {
-    start[CONTACT_GROUP] = 0;
-    if (list->holds[group]) list->holds[group] = remembers(list, lanes);
-    if (part->near_count == 0 && !list->holds[group]) return 0;
-    list->holds[group] = 1; /* what is near may come to be held */
-    int of_owner[CONTACT_GROUP] = {0}, place[CONTACT_GROUP], sum = 0, kept = 0;
+    const ContactCandidates *all = &near->list->candidates[near->group];
+    const ContactLanes *lanes = &near->own->lanes[near->group];
+    int count = 0;
     if (memory_reserve((void **)&part->other, &part->other_capacity,
-                       part->near_count + (size_t)CONTACT_GROUP * CONTACT_SLOTS, sizeof *part->other))
+                       (size_t)(all->first[CONTACT_GROUP] + CONTACT_GROUP * CONTACT_SLOTS) + CONTACT_GROUP,
+                       sizeof *part->other))
         return -1;
-    for (size_t k = 0; k < part->near_count; k++) of_owner[part->near[k].owner]++;
-    for (int i = 0; i < CONTACT_GROUP; i++) {
-        start[i] = place[i] = sum;
-        sum += of_owner[i] + (lanes->item[i] >= 0 && list->held[lanes->item[i]] ? CONTACT_SLOTS : 0);
+    for (int l = 0; l < CONTACT_GROUP; l++) {
+        int32_t item = lanes->item[l], first = all->first[l], *other = part->other + count;
+        int found = 0;
+        start[l] = count;
+        if (item < 0) continue;
+        if (some && all->first[l + 1] > first) {
+            float deep = near->deepest > 0.0f ? (float)near->list->depth[item] * ROUND_UP : 0.0f;
+            found = loop->kernels->pick(all->gap + first, all->slot + first, all->item + first,
+                                        all->first[l + 1] - first, part->limit, deep, other);
+        }
+        if (near->list->held[item]) found = merge_memories(near->list, item, other, found);
+        count += found;
     }
-    for (size_t k = 0; k < part->near_count; k++) part->other[place[part->near[k].owner]++] = part->near[k].other;
-    for (int i = 0; i < CONTACT_GROUP; i++) { /* close the gaps */
-        int found = of_owner[i], from = start[i];
-        contact_sort(part->other + from, found);
-        if (lanes->item[i] >= 0 && list->held[lanes->item[i]])
-            found = merge_memories(list, lanes->item[i], part->other + from, found);
-        start[i] = kept;
-        for (int k = 0; k < found; k++) part->other[kept++] = part->other[from + k];
-    }
-    start[CONTACT_GROUP] = kept;
+    start[CONTACT_GROUP] = count;
     return 0;
+}
+
+void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread,
+                       int start[CONTACT_GROUP + 1])
+{
+    ContactList *list = edges ? &run->edges : &run->faces;
+    ContactPart *part = &loop->parts[thread];
+    int32_t first = list->start[group];
+    NearGroup near = {.list = list,
+                      .own = edges ? &run->lines : &run->nodes,
+                      .all = edges ? &run->lines : &run->triangles,
+                      .group = group,
+                      .pairs = list->start[group + 1] - first,
+                      .other = list->pairs.other + first,
+                      .slack = list->pairs.slack + first,
+                      .kept = list->pairs.kept + first,
+                      .longer = (float)loop->step.longer,
+                      .deepest = (float)list->deepest[group] * ROUND_UP,
+                      .edges = edges};
+    start[CONTACT_GROUP] = 0;
+    int some = renew_candidates(loop, &near, part);
+    if (list->holds[group]) list->holds[group] = remembers(list, &near.own->lanes[group]);
+    if (some == 0 && !list->holds[group]) return;
+    list->holds[group] = 1; /* what is near may come to be held */
+    if (some < 0 || list_others(loop, &near, some > 0, part, start)) part->failed = true;
 }
 
 ContactForce *contact_force_room(ContactPart *part, size_t more)

@@ -6,11 +6,15 @@
 
 #include "solver/memory.h"
 
+/* Nothing is known of a pair. */
+#define NOTHING_KEPT ((ContactKept){.slot = CONTACT_NO_SLOT, .within = -FLT_MAX})
+
 /* Room for count pairs. */
 static int reserve(ContactGroupPairs *pairs, size_t count)
 {
     return memory_reserve((void **)&pairs->other, &pairs->other_capacity, count, sizeof *pairs->other) ||
-                   memory_reserve((void **)&pairs->slack, &pairs->slack_capacity, count, sizeof *pairs->slack)
+                   memory_reserve((void **)&pairs->slack, &pairs->slack_capacity, count, sizeof *pairs->slack) ||
+                   memory_reserve((void **)&pairs->kept, &pairs->kept_capacity, count, sizeof *pairs->kept)
                ? -1
                : 0;
 }
@@ -19,12 +23,14 @@ void contact_pairs_free(ContactGroupPairs *pairs)
 {
     memory_free(pairs->other);
     memory_free(pairs->slack);
+    memory_free(pairs->kept);
 }
 
 int contact_part_add(ContactPart *part, int32_t other, double slack)
 {
     if (reserve(&part->pairs, part->pair_count + 1)) return -1;
     part->pairs.other[part->pair_count] = other;
+    part->pairs.kept[part->pair_count] = NOTHING_KEPT;
     part->pairs.slack[part->pair_count++] = contact_slack(slack);
     return 0;
 }
@@ -34,14 +40,16 @@ int contact_first_of(int count, int thread, int threads)
     return (int)((int64_t)count * thread / threads);
 }
 
-/* A pair that was there before may know better how far apart its groups are. */
+/* A pair that was there before may know better how far apart its groups are, and has its candidates. */
 void contact_pairs_remember(const ContactList *list, int group, ContactPart *part, size_t first)
 {
     int32_t old = list->start[group], end = list->start[group + 1];
     const ContactGroupPairs *before = &list->pairs;
     for (size_t k = first; k < part->pair_count; k++) {
         while (old < end && before->other[old] < part->pairs.other[k]) old++;
-        if (old < end && before->other[old] == part->pairs.other[k] && before->slack[old] > part->pairs.slack[k])
+        if (old == end || before->other[old] != part->pairs.other[k]) continue;
+        part->pairs.kept[k] = before->kept[old];
+        if (before->kept[old].within > -FLT_MAX || before->slack[old] > part->pairs.slack[k])
             part->pairs.slack[k] = before->slack[old];
     }
 }
@@ -58,6 +66,7 @@ int contact_pairs_join(ContactLoop *loop, ContactList *list, int threads)
         if (part->pair_count > 0) {
             memcpy(list->next.other + count, part->pairs.other, part->pair_count * sizeof *part->pairs.other);
             memcpy(list->next.slack + count, part->pairs.slack, part->pair_count * sizeof *part->pairs.slack);
+            memcpy(list->next.kept + count, part->pairs.kept, part->pair_count * sizeof *part->pairs.kept);
         }
         count += part->pair_count;
     }
@@ -76,5 +85,8 @@ void contact_pairs_forget(ContactList *list)
 
 void contact_awake(ContactList *list)
 {
-    for (int32_t k = 0; k < list->start[list->group_count]; k++) list->pairs.slack[k] = -FLT_MAX;
+    for (int32_t k = 0; k < list->start[list->group_count]; k++) {
+        list->pairs.slack[k] = -FLT_MAX;
+        list->pairs.kept[k] = NOTHING_KEPT;
+    }
 }

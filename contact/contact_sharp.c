@@ -44,14 +44,14 @@ void contact_sharp_mark(ContactLoop *loop, ContactRun *run, int thread, int thre
     if (turn > SHARP_MOST) turn = SHARP_MOST;
     int end = contact_first_of(run->lines.count, thread + 1, threads);
     for (int g = contact_first_of(run->lines.count, thread, threads); g < end; g++) {
-        ContactLanes *lanes = &run->lines.lanes[g];
-        run->lines.idle[g] = 1;
+        const ContactLanes *lanes = &run->lines.lanes[g];
+        unsigned set = 0;
         for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) {
             int32_t e = lanes->item[k];
             if (!loop->restored) sharp[e] = is_sharp(run, e, 1.0 - 0.5 * turn * turn);
-            lanes->sharp[k] = sharp[e];
-            if (sharp[e]) run->lines.idle[g] = 0;
+            set |= (unsigned)(sharp[e] != 0) << k;
         }
+        run->lines.sharp[g] = (uint16_t)set;
     }
 }
 

@@ -163,10 +163,12 @@ ALWAYS_INLINE void take_best(Search *search, const LaneArray *square)
     if (lanes_below(least, lanes_of(search->best))) search->best = lanes_least(least);
 }
 
-static void note(ContactLook *look, int lane, unsigned found)
+static void note(ContactLook *look, int lane, unsigned found, const LaneArray *square)
 {
-    for (; found; found &= found - 1)
-        look->found[look->count++] = (ContactNearby){lane, look->others->item[__builtin_ctz(found)]};
+    for (; found; found &= found - 1) {
+        int other = __builtin_ctz(found);
+        look->found[look->count++] = (ContactNearby){(int16_t)lane, (int16_t)other, square->at[other]};
+    }
 }
 
 /* The first owner of the set, which is not empty, that is nearest to the box. */
@@ -186,6 +188,7 @@ static unsigned worth_looking(const Search *search, unsigned left)
 
 static void finish(ContactLook *look, float square, double margin)
 {
+    look->margin = margin;
     look->nearest = square < FLT_MAX ? sqrt((double)square) - margin : DBL_MAX;
 }
 
@@ -202,7 +205,7 @@ static void look_from_node(ContactLook *look, Search *search, const TriangleLane
     {
         lanes_store(&square, r, lanes_replace(face_distances(t, p, r), lanes_out(meets, r), FLT_MAX));
     }
-    note(look, k, meets & items_within(&square, search->limit.at[k]));
+    note(look, k, meets & items_within(&square, search->limit.at[k]), &square);
     take_best(search, &square);
 }
 
@@ -317,8 +320,8 @@ static void look_from_edge(ContactLook *look, Search *search, const EdgeLanes *e
         lanes_store(&square, r, lanes_replace(edge_distances(e, k, f, r), lanes_out(meets, r), FLT_MAX));
     }
     take_best(search, &square);
-    if (!owners->sharp[k]) meets &= ~items_equal(others->sharp, 0);
-    note(look, k, meets & items_within(&square, search->limit.at[k]));
+    if (!(look->own_sharp >> k & 1u)) meets &= look->other_sharp;
+    note(look, k, meets & items_within(&square, search->limit.at[k]), &square);
 }
 
 static void near_edges(ContactLook *look)
@@ -344,4 +347,18 @@ static void near_edges(ContactLook *look)
     finish(look, search.best, margin);
 }
 
-const NearKernels BILLOW_NEAR_TABLE = {.faces = near_faces, .edges = near_edges};
+static int pick(const float *gap, const int32_t *slot, const int32_t *item, int count, const float *limit, float more,
+                int32_t *picked)
+{
+    int total = 0;
+    for (int first = 0; first < count; first += NEAR_WIDTH) {
+        int some = count - first < NEAR_WIDTH ? count - first : NEAR_WIDTH;
+        unsigned set = (1u << some) - 1u;
+        Lanes most = lanes_pick(limit, slot + first, set) + more;
+        set &= lanes_below(lanes_from(gap + first), most);
+        total += lanes_pack(item + first, set, picked + total);
+    }
+    return total;
+}
+
+const NearKernels BILLOW_NEAR_TABLE = {.faces = near_faces, .edges = near_edges, .pick = pick};

@@ -4,20 +4,23 @@
 
 #include "contact/contact_motion.h"
 
-/* A pair that may touch: the owner's lane and the other item. */
+/* A pair that may touch: lanes, and its squared distance from below but for the margin. */
 typedef struct ContactNearby {
-    int32_t owner, other;
+    int16_t owner, other;
+    float square;
 } ContactNearby;
 
 /* Two groups. */
 typedef struct ContactLook {
     const ContactLanes *owners, *others;
-    const double *x;     /* positions now */
-    const double *depth; /* how much farther each node looks (node_count) [L] */
-    double deepest;      /* the largest depth of the owners; for edges 0 [L] */
-    double reach;        /* pairs nearer than this are found [L] */
-    int count;           /* of pairs found */
-    double nearest;      /* no pair of them is nearer; DBL_MAX without a pair that may meet */
+    const double *x;                 /* positions now */
+    const double *depth;             /* how much farther each node looks (node_count) [L] */
+    double deepest;                  /* the largest depth of the owners; for edges 0 [L] */
+    unsigned own_sharp, other_sharp; /* lanes of edges at which the surface is turned: one of a pair must be */
+    double reach;                    /* pairs nearer than this are found [L] */
+    int count;                       /* of pairs found */
+    double margin;                   /* what rounding may have added to distances [L] */
+    double nearest;                  /* no pair of them is nearer; DBL_MAX without a pair that may meet */
     ContactNearby found[CONTACT_GROUP * CONTACT_GROUP];
 } ContactLook;
 
@@ -25,6 +28,10 @@ typedef struct ContactLook {
 typedef struct NearKernels {
     void (*faces)(ContactLook *look); /* owners are nodes, others triangles */
     void (*edges)(ContactLook *look); /* both are edges; in one group each pair once */
+    /* Items whose gap is no more than more + limit of their slot, in their order; returns how many. All arrays but
+     * limit are readable, and picked has room, for CONTACT_GROUP beyond count. */
+    int (*pick)(const float *gap, const int32_t *slot, const int32_t *item, int count, const float *limit, float more,
+                int32_t *picked);
 } NearKernels;
 
 extern const NearKernels near_kernels_v2, near_kernels_v3, near_kernels_v4;

@@ -32,6 +32,14 @@ ALWAYS_INLINE Lanes lanes_load(const LaneArray *from, int r)
     return *(const Lanes *)(const void *)(from->at + r);
 }
 
+typedef float LooseLanes __attribute__((vector_size(4 * NEAR_WIDTH), aligned(4)));
+
+/* From any place. */
+ALWAYS_INLINE Lanes lanes_from(const float *from)
+{
+    return *(const LooseLanes *)(const void *)from;
+}
+
 ALWAYS_INLINE void lanes_store(LaneArray *to, int r, Lanes value)
 {
     *(Lanes *)(void *)(to->at + r) = value;
@@ -151,6 +159,35 @@ ALWAYS_INLINE Lanes lanes_gather(const double *from, const int32_t *node, double
     Lanes to;
     for (int k = 0; k < NEAR_WIDTH; k++) to[k] = (float)(from[3 * (ptrdiff_t)node[k]] - origin);
     return to;
+}
+#endif
+
+/* lanes_pick: from[place[lane]] of the lanes of a set, others are of no use. lanes_pack: stores numbers of the lanes of
+ * a set one behind the other, and perhaps anything in the rest of NEAR_WIDTH places; returns how many they are. */
+#if BILLOW_KERNEL_LEVEL >= 4
+ALWAYS_INLINE Lanes lanes_pick(const float *from, const int32_t *place, unsigned set)
+{
+    __m512i at = _mm512_loadu_si512(place);
+    return (Lanes)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), (__mmask16)set, at, from, 4);
+}
+ALWAYS_INLINE int lanes_pack(const int32_t *number, unsigned set, int32_t *to)
+{
+    __m512i packed = _mm512_maskz_compress_epi32((__mmask16)set, _mm512_loadu_si512(number));
+    _mm512_storeu_si512(to, packed);
+    return __builtin_popcount(set);
+}
+#else
+ALWAYS_INLINE Lanes lanes_pick(const float *from, const int32_t *place, unsigned set)
+{
+    Lanes value = {0};
+    for (int k = 0; k < NEAR_WIDTH; k++) value[k] = set >> k & 1u ? from[place[k]] : 0.0f;
+    return value;
+}
+ALWAYS_INLINE int lanes_pack(const int32_t *number, unsigned set, int32_t *to)
+{
+    int count = 0;
+    for (; set; set &= set - 1) to[count++] = number[__builtin_ctz(set)];
+    return count;
 }
 #endif
 
