@@ -234,6 +234,7 @@ static void choose_kernels(ContactLoop *loop)
     int level = table ? table->level : 2;
     loop->kernels = level == 4 ? &near_kernels_v4 : level == 3 ? &near_kernels_v3 : &near_kernels_v2;
     loop->motion_kernels = level == 4 ? &motion_kernels_v4 : level == 3 ? &motion_kernels_v3 : &motion_kernels_v2;
+    loop->grid.overlap = loop->motion_kernels->overlap;
 }
 
 ContactLoop *contact_create(const Model *model, State *state, double *rows, const double *pressure)

@@ -47,6 +47,21 @@ static inline bool cross_edges(Crossing *c, const double *const p[4], double rea
     return true;
 }
 
+/* Edges that do not cross within their lengths, most of them: cheap, and for no pair that does. */
+static inline bool pass_by(const double *const p[4])
+{
+    double u[3], w[3], r[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = p[1][k] - p[0][k];
+        w[k] = p[3][k] - p[2][k];
+        r[k] = p[0][k] - p[2][k];
+    }
+    double uu = vector3_dot(u, u), ww = vector3_dot(w, w), uw = vector3_dot(u, w);
+    double ur = vector3_dot(u, r), wr = vector3_dot(w, r), least = 1e-9 * uu * ww, most = uu * ww - uw * uw + least;
+    double s = uw * wr - ww * ur, t = uu * wr - uw * ur;
+    return (s < -least) | (t < -least) | (s > most) | (t > most);
+}
+
 /* Keeps what a pair knew that ends while it pushes. */
 static void note_ended(ContactPassages *passages, int e, int f, const ContactMemory *m)
 {
@@ -84,10 +99,11 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     if (!m) m = &fresh;
     const int32_t *a = c->edge + 2 * (ptrdiff_t)e, *b = c->edge + 2 * (ptrdiff_t)f;
     const double *p[4];
+    edge_ends(c, loop->state->x, e, f, p);
+    if (m == &fresh && pass_by(p)) return;
     double thickness = run->thinness * (c->edge_radius[e] + c->edge_radius[f]);
     double reach = thickness + closing_speed(loop->state->v, a, b) * loop->step.longer + (m->side ? law->deepest : 0.0);
     Crossing cross;
-    edge_ends(c, loop->state->x, e, f, p);
     if (!cross_edges(&cross, p, reach, m->side ? SLACK : 0.0)) {
         if (m->side) note_ended(passages, e, f, m);
         if (m != &fresh) *m = fresh;

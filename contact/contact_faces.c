@@ -13,6 +13,7 @@ typedef struct NearFace {
     int32_t triangle;
     bool rim; /* the closest point is on the surface's rim */
     bool kept;
+    bool counts; /* it has a memory, or may touch in this step */
 } NearFace;
 
 /* Does triangle g have all the corners on which f's closest point lies? */
@@ -37,14 +38,11 @@ static bool is_nearer(const NearFace *g, const NearFace *f, bool first)
     return a > b || (a == b && first);
 }
 
-static void keep_nearest(NearFace *near, int count)
+static bool is_nearest(const NearFace *near, int count, int i)
 {
-    for (int i = 0; i < count; i++) {
-        near[i].kept = true;
-        for (int j = 0; j < count && near[i].kept && near[i].at.feature != 7; j++)
-            if (j != i && shares_feature(&near[i], &near[j]) && is_nearer(&near[j], &near[i], j < i))
-                near[i].kept = false;
-    }
+    for (int j = 0; j < count && near[i].at.feature != 7; j++)
+        if (j != i && shares_feature(&near[i], &near[j]) && is_nearer(&near[j], &near[i], j < i)) return false;
+    return true;
 }
 
 static bool touch_each_other(const NearFace *f, const NearFace *g)
@@ -65,6 +63,21 @@ static void inherit(NearFace *near, int count, int heir)
         near[i].memory = NULL;
         return;
     }
+}
+
+/* Which of the near ones are kept, as far as they count; and all, where one with a memory is not and may leave it to
+ * another. */
+static void keep_nearest(NearFace *near, int count)
+{
+    bool leaves = false;
+    for (int i = 0; i < count; i++) {
+        near[i].kept = near[i].counts && is_nearest(near, count, i);
+        leaves = leaves || (near[i].memory && !near[i].kept);
+    }
+    if (!leaves) return;
+    for (int i = 0; i < count; i++) near[i].kept = near[i].kept || (!near[i].counts && is_nearest(near, count, i));
+    for (int i = 0; i < count; i++)
+        if (near[i].kept && !near[i].memory) inherit(near, count, i);
 }
 
 /* Adds the normal of triangle t, weighted at one of its corners or, corner -1, of unit length. */
@@ -147,10 +160,22 @@ static double closing_speed(const double *v, int32_t node, const int32_t corner[
     return sqrt(most);
 }
 
+/* Too far for its own velocity: a new pair that cannot touch in this step. */
+static bool cannot_touch(const ContactLaw *law, const NearFace *f, int32_t node, double thickness)
+{
+    double beyond = f->at.distance - thickness;
+    if (!(beyond > 0.0)) return false;
+    ContactTouch t = {.node = {node, f->at.corner[0], f->at.corner[1], f->at.corner[2]},
+                      .weight = {1.0, -f->at.weight[0], -f->at.weight[1], -f->at.weight[2]}};
+    double longer = law->before > law->next ? law->before : law->next;
+    contact_speed(law, &t);
+    return beyond * beyond > longer * longer * vector3_dot(t.speed, t.speed) * (1.0 + 1e-9);
+}
+
 /* Of the triangles [first, end) of others those that the node may touch in this step. What it has no memory of it may
  * meet (contact/near_kernels.c). */
-static int look_around(const ContactLoop *loop, ContactRun *run, int i, const int32_t *other, int others,
-                       NearFace *near)
+static int look_around(const ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, const int32_t *other,
+                       int others, NearFace *near)
 {
     const ContactInterface *c = run->contact;
     const double *x = loop->state->x, *at = x + 3 * (ptrdiff_t)c->node[i], *inverse = loop->model->contact_inverse;
@@ -168,20 +193,14 @@ static int look_around(const ContactLoop *loop, ContactRun *run, int i, const in
             reach += contact_deepest(c);
         else if (!contact_moves(inverse, c->node[i], f->at.corner, 3))
             continue;
-        if (closest_point(&f->at, at, x, reach, &bound) && count < MOST_NEAR - 1)
+        if (closest_point(&f->at, at, x, reach, &bound) && count < MOST_NEAR - 1) {
+            f->counts = f->memory || !cannot_touch(law, f, c->node[i], thickness);
             count++;
-        else if (f->memory)
+        } else if (f->memory) {
             *f->memory = (ContactMemory){0};
+        }
     }
     return count;
-}
-
-/* Too far for its own velocity: a new pair that cannot touch in this step. */
-static bool cannot_touch(const ContactLaw *law, const ContactTouch *t, const NearFace *f)
-{
-    double longer = law->before > law->next ? law->before : law->next;
-    double beyond = f->at.distance - t->thickness;
-    return beyond > 0.0 && beyond * beyond > longer * longer * vector3_dot(t->speed, t->speed) * (1.0 + 1e-9);
 }
 
 /* Does the closest point lie on the surface's rim? An edge between two corners of the rim may be none of it. */
@@ -207,7 +226,6 @@ static void meet_face(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
                       .thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[f->triangle]),
                       .stiffness = c->stiffness[c->node_side[i] == CONTACT_SIDE_B]};
     if (f->kept) contact_speed(law, &t);
-    if (f->kept && !m && cannot_touch(law, &t, f)) return;
     f->rim = is_on_rim(c, f);
     if (!f->kept || !take_side(law, c, loop->state->x, f, m ? m : &fresh, &t)) {
         if (m) *m = (ContactMemory){0};
@@ -228,12 +246,11 @@ static void meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
                       int others, ContactSums *sums, ContactForce *forces)
 {
     NearFace near[MOST_NEAR];
-    int count = look_around(loop, run, i, other, others, near);
+    int count = look_around(loop, run, law, i, other, others, near);
     run->faces.depth[i] = 0.0;
     keep_nearest(near, count);
     for (int k = 0; k < count; k++)
-        if (near[k].kept && !near[k].memory) inherit(near, count, k);
-    for (int k = 0; k < count; k++) meet_face(loop, run, law, i, &near[k], sums, forces);
+        if (near[k].memory || (near[k].kept && near[k].counts)) meet_face(loop, run, law, i, &near[k], sums, forces);
     contact_count_held(&run->faces, i);
 }
 

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "contact/motion_kernels.h"
 #include "solver/memory.h"
 
 /* A box with half extents beyond this many times the mean is kept out of the cells. */
@@ -12,6 +13,9 @@
 
 /* Bounds in single precision are rounded outward by this share of their distance from the origin. */
 #define ROUNDING 2.5e-7f
+
+/* What kernels read or write beyond the end of an array. */
+enum { BEYOND = 16 };
 
 static double largest_half_extent(const ContactBox *box)
 {
@@ -94,15 +98,16 @@ static int assign_cells(ContactGrid *grid)
 
 int contact_grid_fill(ContactGrid *grid, const ContactBox *box, int count)
 {
+    if (!grid->overlap) grid->overlap = motion_kernels_v2.overlap;
     grid->all = box;
     grid->count = count;
     grid->large_count = grid->sorted_count = 0;
     lay_cells(grid, box, count);
     size_t cells = (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2], boxes = (size_t)count + 1;
     if (memory_reserve((void **)&grid->start, &grid->start_capacity, cells + 3, sizeof *grid->start) ||
-        memory_reserve((void **)&grid->box, &grid->box_capacity, boxes, sizeof *grid->box) ||
+        memory_reserve((void **)&grid->box, &grid->box_capacity, boxes + BEYOND, sizeof *grid->box) ||
         memory_reserve((void **)&grid->cell, &grid->cell_capacity, boxes, sizeof *grid->cell) ||
-        memory_reserve((void **)&grid->bounds, &grid->bounds_capacity, 6 * boxes, sizeof *grid->bounds))
+        memory_reserve((void **)&grid->bounds, &grid->bounds_capacity, 6 * boxes + BEYOND, sizeof *grid->bounds))
         return -1;
     for (size_t i = 0; i < cells + 3; i++) grid->start[i] = 0;
     if (assign_cells(grid)) return -1;
@@ -118,21 +123,6 @@ int contact_grid_fill(ContactGrid *grid, const ContactBox *box, int count)
         }
     }
     return 0;
-}
-
-/* Those of one run of bounds that overlap the query q: low x y z, high x y z. */
-static int query_run(const ContactGrid *grid, const float q[6], int32_t first, int32_t end, int32_t *found)
-{
-    const float *low = grid->bounds, *high = low + 3 * (ptrdiff_t)grid->sorted_count;
-    ptrdiff_t n = grid->sorted_count;
-    int count = 0;
-    for (int32_t p = first; p < end; p++) {
-        int miss = (low[p] > q[3]) | (low[n + p] > q[4]) | (low[2 * n + p] > q[5]) | (high[p] < q[0]) |
-                   (high[n + p] < q[1]) | (high[2 * n + p] < q[2]);
-        found[count] = grid->box[p];
-        count += !miss;
-    }
-    return count;
 }
 
 static int overlap(const ContactBox *a, const ContactBox *b)
@@ -158,10 +148,10 @@ int contact_grid_query(const ContactGrid *grid, const ContactBox *box, ContactFo
             ptrdiff_t row = ((ptrdiff_t)i * grid->size[1] + j) * grid->size[2];
             int32_t first = grid->start[row + low[2]], end = grid->start[row + high[2] + 1];
             if (first == end) continue;
-            if (memory_reserve((void **)&found->item, &found->capacity, (size_t)(count + end - first) + 1,
+            if (memory_reserve((void **)&found->item, &found->capacity, (size_t)(count + end - first) + BEYOND,
                                sizeof *found->item))
                 return -1;
-            count += query_run(grid, q, first, end, found->item + count);
+            count += grid->overlap(grid->bounds, grid->sorted_count, grid->box, q, first, end, found->item + count);
         }
     if (memory_reserve((void **)&found->item, &found->capacity, (size_t)(count + grid->large_count) + 1,
                        sizeof *found->item))

@@ -16,17 +16,24 @@ typedef struct ContactFound {
     size_t capacity;
 } ContactFound;
 
+/* Which of the boxes [first, end) by cell overlap the box from query's low x y z to its high x y z: puts their numbers,
+ * of all, into found, which has room for 16 more; returns how many. bounds: low x y z, high x y z, each count numbers,
+ * all readable 16 beyond end (contact/motion_kernels.c). */
+typedef int ContactOverlap(const float *bounds, ptrdiff_t count, const int32_t *all, const float query[6],
+                           int32_t first, int32_t end, int32_t *found);
+
 typedef struct ContactGrid {
-    double origin[3]; /* low corner of all centres [L] */
-    double inverse;   /* 1 over the side of a cell */
-    double reach;     /* largest half extent of the boxes in cells [L] */
-    int32_t size[3];  /* cells in x, y, z */
-    int32_t *start;   /* first place of each cell (cells + 1) */
-    int32_t *box;     /* boxes by cell (sorted_count) */
-    int32_t *cell;    /* workspace: cell of each box, -1 large, -2 left out (count) */
-    float *bounds;    /* of the boxes by cell, from the origin, rounded outward: low x y z, high x y z, each
-                         (sorted_count) */
-    int32_t *large;   /* boxes much larger than the mean: met by every query */
+    ContactOverlap *overlap; /* NULL: that of any processor */
+    double origin[3];        /* low corner of all centres [L] */
+    double inverse;          /* 1 over the side of a cell */
+    double reach;            /* largest half extent of the boxes in cells [L] */
+    int32_t size[3];         /* cells in x, y, z */
+    int32_t *start;          /* first place of each cell (cells + 1) */
+    int32_t *box;            /* boxes by cell (sorted_count) */
+    int32_t *cell;           /* workspace: cell of each box, -1 large, -2 left out (count) */
+    float *bounds;           /* of the boxes by cell, from the origin, rounded outward: low x y z, high x y z, each
+                                (sorted_count) */
+    int32_t *large;          /* boxes much larger than the mean: met by every query */
     const ContactBox *all;
     int32_t count, sorted_count, large_count;
     size_t start_capacity, box_capacity, cell_capacity, bounds_capacity, large_capacity;

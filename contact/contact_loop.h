@@ -106,6 +106,7 @@ static inline void contact_fetch(const ContactList *list, const ContactLanes *la
 {
     for (int i = 0; i < CONTACT_GROUP && lanes->item[i] >= 0; i++)
         for (int k = 0; k < list->held[lanes->item[i]]; k++) {
+            __builtin_prefetch(list->partner + (ptrdiff_t)lanes->item[i] * CONTACT_SLOTS);
             const char *at = (const char *)contact_slot(list, lanes->item[i], k);
             __builtin_prefetch(at);
             __builtin_prefetch(at + sizeof(ContactMemory) - 1);

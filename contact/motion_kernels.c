@@ -166,4 +166,20 @@ static void drift(ContactMotion *motion, const double *x, const double *v, const
     motion->fastest = fastest;
 }
 
-const MotionKernels BILLOW_MOTION_TABLE = {.follow = follow, .wake = wake, .drift = drift};
+static int overlap(const float *bounds, ptrdiff_t count, const int32_t *all, const float query[6], int32_t first,
+                   int32_t end, int32_t *found)
+{
+    const float *low = bounds, *high = bounds + 3 * count;
+    int total = 0;
+    for (int32_t p = first; p < end; p += NEAR_WIDTH) {
+        unsigned set = end - p < NEAR_WIDTH ? (1u << (end - p)) - 1u : (1u << (NEAR_WIDTH - 1) << 1) - 1u;
+        for (int k = 0; k < 3; k++) {
+            set &= lanes_below(lanes_from(low + k * count + p), lanes_of(query[3 + k]));
+            set &= lanes_below(lanes_of(query[k]), lanes_from(high + k * count + p));
+        }
+        total += lanes_pack(all + p, set, found + total);
+    }
+    return total;
+}
+
+const MotionKernels BILLOW_MOTION_TABLE = {.follow = follow, .wake = wake, .overlap = overlap, .drift = drift};

@@ -22,6 +22,7 @@ typedef struct MotionKernels {
      * may close (CONTACT_GROUP numbers, aligned). */
     unsigned (*wake)(const ContactWatch *watch, const int32_t *other, float *slack, int count, float *speed);
     /* Way x + pending v - from and v.v of count nodes into drift and fastest of *motion. */
+    ContactOverlap *overlap;
     void (*drift)(ContactMotion *motion, const double *x, const double *v, const double *from, double pending,
                   int count);
 } MotionKernels;
