@@ -169,6 +169,12 @@ typedef struct ContactPull {
     int64_t cycle; /* in which it was formed, ContactLoop.cycle */
 } ContactPull;
 
+/* A pair of a group that is awake, and the gap within which its candidates may touch [L]. */
+typedef struct ContactAwake {
+    int pair;
+    float gap;
+} ContactAwake;
+
 /* What one thread finds and does: group pairs of its share in a search, forces of its groups in a cycle. */
 typedef struct ContactPart {
     ContactGroupPairs pairs;
@@ -177,7 +183,8 @@ typedef struct ContactPart {
     ContactForce *force;
     size_t force_count, force_capacity;
     ContactSorting sorting;
-    float *near, *limit; /* gaps within which items may touch, of one group of owners: by pairs, by slots [L] */
+    ContactAwake *near; /* of one group of owners: pairs that are awake */
+    float *limit;       /* of its slots: gaps within which candidates may touch [L] */
     size_t near_capacity, limit_capacity;
     int32_t *other; /* what each owner of a group may touch in this step and what it remembers */
     size_t other_capacity;

@@ -45,8 +45,8 @@ static int look_at(const ContactLoop *loop, const NearGroup *near, int k, double
     return contact_candidates_find(&part->sorting, kept, k, look, thickness);
 }
 
-/* Wakes pairs of the group and looks at those of which not all is known that is near. In part->near are the gaps within
- * which two items may touch, of the pairs that are awake, else -FLT_MAX. Returns 1 if some may, -1 without memory. */
+/* Wakes pairs of the group and looks at those of which not all is known that is near. In part->near are those that are
+ * awake and have candidates, and the gaps within which these may touch. Returns how many, -1 without memory. */
 static int wake_pairs(const ContactLoop *loop, const NearGroup *near, float before, ContactPart *part)
 {
     ContactWatch watch = {.own = near->own,
@@ -55,42 +55,33 @@ static int wake_pairs(const ContactLoop *loop, const NearGroup *near, float befo
                           .before = before,
                           .longer = near->longer,
                           .deepest = near->deepest};
+    const unsigned own = near->own->sharp[near->group];
     int some = 0;
     part->sorting.count = 0;
     for (int first = 0; first < near->pairs; first += CONTACT_GROUP) {
         int count = near->pairs - first < CONTACT_GROUP ? near->pairs - first : CONTACT_GROUP;
         _Alignas(64) float speed[CONTACT_GROUP];
         unsigned awake = loop->motion_kernels->wake(&watch, near->other + first, near->slack + first, count, speed);
-        for (int k = 0; k < count; k++) part->near[first + k] = -FLT_MAX;
+        for (unsigned left = awake; left; left &= left - 1)
+            __builtin_prefetch(near->kept + first + __builtin_ctz(left));
         for (; awake; awake &= awake - 1) {
             int k = first + __builtin_ctz(awake);
-            unsigned own = near->own->sharp[near->group], other = near->all->sharp[near->other[k]];
+            unsigned other = near->all->sharp[near->other[k]];
             ContactKept *kept = &near->kept[k];
             if (near->edges && !own && !other) continue; /* until an edge is sharp */
             float step = speed[k - first] * near->longer * ROUND_UP;
             float gap = contact_kept_way(kept, near->slack[k]) + step;
             bool known = kept->own == own && kept->other == other && gap + near->deepest <= kept->within;
             if (!known && look_at(loop, near, k, (double)step, part)) return -1;
-            if (kept->slot == CONTACT_NO_SLOT) continue;
-            part->near[k] = known ? gap : step;
-            some = 1;
+            if (kept->slot != CONTACT_NO_SLOT)
+                part->near[some++] = (ContactAwake){.pair = k, .gap = (known ? gap : step) * ROUND_UP};
         }
     }
     return some;
 }
 
-/* Gaps within which candidates of each slot may touch, from those of the pairs. 0, or -1 without memory. */
-static int limit_slots(const NearGroup *near, const ContactCandidates *all, ContactPart *part)
-{
-    if (memory_reserve((void **)&part->limit, &part->limit_capacity, (size_t)all->slots + 1, sizeof *part->limit))
-        return -1;
-    for (int32_t s = 0; s < all->slots; s++) part->limit[s] = -FLT_MAX;
-    for (int k = 0; k < near->pairs; k++)
-        if (near->kept[k].slot >= 0) part->limit[near->kept[k].slot] = part->near[k] * ROUND_UP;
-    return 0;
-}
-
-/* Wakes pairs and brings the group's candidates up to date. Returns 1 if some of them may touch, -1 without memory. */
+/* Wakes pairs, brings the group's candidates up to date, and sets the gaps within which those of each slot may touch.
+ * Returns whether some may, -1 without memory. */
 static int renew_candidates(const ContactLoop *loop, const NearGroup *near, ContactPart *part)
 {
     ContactCandidates *all = &near->list->candidates[near->group];
@@ -99,7 +90,11 @@ static int renew_candidates(const ContactLoop *loop, const NearGroup *near, Cont
     int some = wake_pairs(loop, near, (float)loop->step.before, part);
     if (some <= 0) return some;
     if (part->sorting.count > 0 && contact_candidates_merge(all, near->kept, near->pairs, &part->sorting)) return -1;
-    return limit_slots(near, all, part) ? -1 : 1;
+    if (memory_reserve((void **)&part->limit, &part->limit_capacity, (size_t)all->slots + 1, sizeof *part->limit))
+        return -1;
+    for (int32_t s = 0; s < all->slots; s++) part->limit[s] = -FLT_MAX;
+    for (int k = 0; k < some; k++) part->limit[near->kept[part->near[k].pair].slot] = part->near[k].gap;
+    return 1;
 }
 
 /* Adds the others that an owner remembers, in their places, and leaves out doubles. Returns how many there are now. */
