@@ -230,6 +230,36 @@ static void test_shapes(void **state)
     program_close(&program);
 }
 
+/* Offsets and factors of an include: lengths are scaled, the profile's curve is found; it has its own units. */
+static void test_include(void **state)
+{
+    (void)state;
+    static Program program;
+    char text[6000];
+    static const char shapes[] = "*CONTACT_ENTITY\n2,5,1,1\n\n0.1,0.2,0.3,1\n0,1\n0,0.1,0,0,0.4,0.05\n"
+                                 "2,10,1,1\n\n\n\n0,0.2,0.3\n2,11,1,1\n\n\n\n0,9\n"
+                                 "*DEFINE_CURVE\n9\n0,1\n2,1\n";
+    static const char wrong[] = "*CONTACT_ENTITY\n2,5,1,1\n\n\n\n0,0,0,0,1,2\n";
+    int length =
+        snprintf(text, sizeof text, "%s*INCLUDE_TRANSFORM\nshapes.k\n0,0,0,0,0,600\n\n1,1,10\n\n*END\n", model_head);
+    program_open(&program);
+    program_write(&program, "include.k", text, (size_t)length);
+    program_write(&program, "shapes.k", shapes, sizeof shapes - 1);
+    assert_int_equal(program_run(&program, "check include.k"), BILLOW_EXIT_NORMAL);
+    const char *expected[] = {"torus on rigid part 2, at (2, 2, 3), radius 4 of a tube of radius 0.5",
+                              "finite plane on rigid part 2, at (0, 0, 0), 2 x 3, corners",
+                              "body of revolution on rigid part 2, at (0, 0, 0), z from 0 to 2, radius up to 1"};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+        if (!strstr(program.out, expected[i])) fail_msg("%s\nlacks: %s", program.out, expected[i]);
+    assert_true(strstr(program.out, "curve 609 is not converted") || strstr(program.err, "curve 609 is not converted"));
+    program_write(&program, "wrong.k", text, (size_t)length - 5);
+    program_write(&program, "shapes.k", wrong, sizeof wrong - 1);
+    assert_int_equal(program_run(&program, "check wrong.k"), BILLOW_EXIT_INPUT);
+    assert_non_null(
+        strstr(program.err, "shapes.k:6: error: *CONTACT_ENTITY: G5 = 20, the radius of the tube, is larger"));
+    program_close(&program);
+}
+
 /* What check says, and gceout of a run: a sheet that lies on a driven sphere's place pushes it. */
 static void test_report_and_results(void **state)
 {
@@ -307,6 +337,7 @@ int main(void)
                                        cmocka_unit_test(test_model),
                                        cmocka_unit_test(test_shapes),
                                        cmocka_unit_test(test_report_and_results),
-                                       cmocka_unit_test(test_rigid_shapes)};
+                                       cmocka_unit_test(test_rigid_shapes),
+                                       cmocka_unit_test(test_include)};
     return cmocka_run_group_tests_name("cards of contact entities", tests, NULL, NULL);
 }
