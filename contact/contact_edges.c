@@ -95,22 +95,23 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
                       ContactForce *forces, ContactPassages *passages)
 {
     const ContactInterface *c = run->contact;
-    ContactMemory fresh = {0}, *m = contact_recall(&run->edges, e, f);
-    if (!m) m = &fresh;
     const int32_t *a = c->edge + 2 * (ptrdiff_t)e, *b = c->edge + 2 * (ptrdiff_t)f;
-    const double *p[4];
+    const double *p[4], *inverse = loop->model->contact_inverse;
+    ContactMemory *m = contact_recall(&run->edges, e, f);
     edge_ends(c, loop->state->x, e, f, p);
-    if (m == &fresh && pass_by(p)) return;
+    if (!m && pass_by(p)) return;
     double thickness = run->thinness * (c->edge_radius[e] + c->edge_radius[f]);
-    double reach = thickness + closing_speed(loop->state->v, a, b) * loop->step.longer + (m->side ? law->deepest : 0.0);
+    double reach = thickness + closing_speed(loop->state->v, a, b) * loop->step.longer + (m ? law->deepest : 0.0);
     Crossing cross;
-    if (!cross_edges(&cross, p, reach, m->side ? SLACK : 0.0)) {
-        if (m->side) note_ended(passages, e, f, m);
-        if (m != &fresh) *m = fresh;
+    if (!cross_edges(&cross, p, reach, m ? SLACK : 0.0)) {
+        if (!m) return;
+        note_ended(passages, e, f, m);
+        *m = (ContactMemory){0};
         return;
     }
-    const double *inverse = loop->model->contact_inverse;
-    if (m == &fresh && !(contact_moves(inverse, a[0], a + 1, 1) || contact_moves(inverse, b[0], b + 1, 1))) return;
+    if (!m && !(contact_moves(inverse, a[0], a + 1, 1) || contact_moves(inverse, b[0], b + 1, 1))) return;
+    ContactMemory fresh = {0};
+    if (!m) m = &fresh;
     ContactTouch t = {.node = {a[0], a[1], b[0], b[1]},
                       .weight = {1.0 - cross.s, cross.s, cross.t - 1.0, -cross.t},
                       .thickness = thickness,
