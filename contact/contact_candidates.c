@@ -1,3 +1,4 @@
+/* Pairs of items that are near, kept sorted from look to look. */
 #include "contact/contact_candidates.h"
 
 #include <math.h>

@@ -59,11 +59,11 @@ static void mark_elements(const Builder *b, double threshold, unsigned char *imp
     }
 }
 
-/* The threshold that costs least; its elements are marked. */
-static Choice choose(const Builder *b, unsigned char *implicit, unsigned char *touched, NodeRates *rates)
+/* The threshold that costs least; its elements are marked. rate: the squared frequency with all explicit. */
+static Choice choose(const Builder *b, double rate, unsigned char *implicit, unsigned char *touched, NodeRates *rates)
 {
     const Model *m = b->model;
-    const double all = m->deformable_count, rate = node_rates_sum(b, NULL, rates);
+    const double all = m->deformable_count;
     Choice none = {.threshold = INFINITY, .rate = rate, .cost = all * sqrt(rate)}, best = none;
     double threshold = 0.0;
     for (int g = 0; g < m->group_count; g++)
@@ -88,7 +88,7 @@ static void add_element(const Builder *b, int record, double factor, const int32
     const ShellRecord *r = &b->records[record];
     double x[12], k[16];
     ElementInput input = record_input(b, record, b->model->initial, GEOMETRY_REFERENCE, x);
-    if (geometry_gradient_stiffness(&input, k)) return;
+    if (geometry_gradient_stiffness(&input, k)) return; /* build_groups has refused such an element */
     int *row = triplets->i, *column = triplets->j;
     double *value = triplets->x;
     for (int i = 0; i < r->corner_count; i++)
@@ -207,7 +207,7 @@ int build_implicit(Builder *b)
     if (!status && !b->options->all_explicit) {
         double rate = node_rates_sum(b, NULL, &rates);
         b->model->implicit.explicit_step = rate > 0.0 ? 2.0 / sqrt(rate) : 0.0;
-        choice = choose(b, b->implicit, touched, &rates);
+        choice = choose(b, rate, b->implicit, touched, &rates);
     }
     if (!status) build_node_shares(b, &rates);
     if (!status && choice.elements > 0) status = make_implicit(b, &choice, touched);

@@ -17,9 +17,10 @@ void implicit_elements_solve(const ImplicitElements *s, double *a)
     }
 }
 
-double implicit_elements_inertia(const ImplicitElements *s, const double *mass, const double *u, const double *w)
+ImplicitInertia implicit_elements_inertia(const ImplicitElements *s, const double *mass, const double *u,
+                                          const double *w)
 {
-    double sum = 0.0;
+    ImplicitInertia sum = {0};
     for (int j = 0; j < s->node_count; j++)
         for (int i = 0; i < 3; i++) {
             const double *uj = u + 3 * (ptrdiff_t)s->node[j], *wj = w + 3 * (ptrdiff_t)s->node[j];
@@ -29,7 +30,10 @@ double implicit_elements_inertia(const ImplicitElements *s, const double *mass, 
                 left += s->entry[k] * u[node + i];
                 right += s->entry[k] * w[node + i];
             }
-            sum += left * right / s->inverse_pivot[j] - mass[s->node[j]] * uj[i] * wj[i];
+            const double pivot = 1.0 / s->inverse_pivot[j], m = mass[s->node[j]];
+            sum.uu += left * left * pivot - m * uj[i] * uj[i];
+            sum.uw += left * right * pivot - m * uj[i] * wj[i];
+            sum.ww += right * right * pivot - m * wj[i] * wj[i];
         }
     return sum;
 }

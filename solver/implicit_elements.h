@@ -23,9 +23,14 @@ enum { IMPLICIT_WIDTH = 4 }; /* x, y, z and nothing, so that a register holds a 
 /* Solves A a = f in place (node_count x IMPLICIT_WIDTH, in the order of the factor). */
 void implicit_elements_solve(const ImplicitElements *elements, double *a);
 
-/* u . (A - M) w: the inertia that the elements add to their nodes' (eq. T18). mass, u, w: of all nodes of the model (1,
- * 3 and 3 of each). */
-double implicit_elements_inertia(const ImplicitElements *elements, const double *mass, const double *u,
-                                 const double *w);
+/* Products u . (A - M) u, u . (A - M) w and w . (A - M) w: the inertia that the elements add to their nodes' (eq. T18).
+ */
+typedef struct ImplicitInertia {
+    double uu, uw, ww;
+} ImplicitInertia;
+
+/* mass, u, w: of all nodes of the model (1, 3 and 3 of each). */
+ImplicitInertia implicit_elements_inertia(const ImplicitElements *elements, const double *mass, const double *u,
+                                          const double *w);
 
 #endif

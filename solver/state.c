@@ -182,7 +182,7 @@ static void start_energies(const Model *model, State *state)
     for (int w = 0; w < model->wall_count; w++)
         e->kinetic += 0.5 * model->walls[w].mass * model->walls[w].speed * model->walls[w].speed;
     if (model->implicit.element_count > 0)
-        e->kinetic += 0.5 * implicit_elements_inertia(&model->implicit, model->mass, state->v, state->v);
+        e->kinetic += 0.5 * implicit_elements_inertia(&model->implicit, model->mass, state->v, state->v).uu;
     for (int p = 0; p < model->part_count; p++) {
         e->internal += state->part_energy[p];
         e->hourglass += state->part_hourglass[p];

@@ -27,13 +27,10 @@ void step_implicit(Workspace *w)
 void step_implicit_energy(const Workspace *w, NodeSums *sums)
 {
     const Model *m = w->model;
-    const ImplicitElements *s = &m->implicit;
-    const double *old = w->implicit_before, *new = w->state->v;
+    const ImplicitInertia of =
+        implicit_elements_inertia(&m->implicit, m->mass, w->implicit_before, w->state->v); /* v-, v+ */
     const double passed = w->plan.dt_before / (w->plan.dt_before + w->plan.dt_next); /* of the change, by eq. T3 */
-    const double both = implicit_elements_inertia(s, m->mass, old, new);
-    const double first = implicit_elements_inertia(s, m->mass, old, old),
-                 last = implicit_elements_inertia(s, m->mass, new, new);
-    sums->kinetic +=
-        0.5 * ((1.0 - passed) * (1.0 - passed) * first + 2.0 * passed * (1.0 - passed) * both + passed * passed * last);
-    sums->kinetic_steps += 0.5 * both;
+    const double left = 1.0 - passed;
+    sums->kinetic += 0.5 * (left * left * of.uu + 2.0 * passed * left * of.uw + passed * passed * of.ww);
+    sums->kinetic_steps += 0.5 * of.uw;
 }

@@ -95,6 +95,21 @@ static inline void check_end(const VerifyRun *run, double tolerance)
     verify_near("energy balance at the end", (last->held - last->given) / run->energy, 0, tolerance);
 }
 
+/* Ends the deck with entities of the body that the fabric meets. thick: ITHK; cards: further text. */
+static inline void end_with_entities(Scene *scene, const SceneEntity *entities, int count, int thick, const char *cards)
+{
+    for (int i = 0; i < count; i++) {
+        SceneEntity entity = entities[i];
+        entity.part = BODY;
+        entity.set = FABRIC;
+        entity.set_type = 1;
+        entity.thick = thick;
+        scene_write_entity(&scene->deck, &entity);
+    }
+    scene_print(&scene->deck, "%s", cards);
+    scene_end(&scene->deck, &scene->mesh);
+}
+
 /* A patch of fabric flies against a free, spinning body with these shapes: nothing is lost, with friction and damping,
  * nor with points within the elements. cards: further text of the deck. */
 static inline void meet_patch(const SceneEntity *entities, int count, const char *cards)
@@ -106,15 +121,7 @@ static inline void meet_patch(const SceneEntity *entities, int count, const char
     scene_print(&scene.deck, "*INITIAL_VELOCITY_RIGID_BODY\n");
     SCENE_CARD(&scene.deck, BODY, 0, 0, 0, 100, -200, 150);
     scene_write_speed(&scene.deck, patch, scene.mesh.node_count, 1, 0, -10);
-    for (int i = 0; i < count; i++) {
-        SceneEntity entity = entities[i];
-        entity.part = BODY;
-        entity.set = FABRIC;
-        entity.set_type = entity.thick = 1;
-        scene_write_entity(&scene.deck, &entity);
-    }
-    scene_print(&scene.deck, "%s", cards);
-    scene_end(&scene.deck, &scene.mesh);
+    end_with_entities(&scene, entities, count, 1, cards);
     Watch w = {0};
     VerifyRun run;
     verify_scene(&run, &scene, &(VerifyOptions){.every = 1, .probe = watch, .user = &w});

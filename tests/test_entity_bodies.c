@@ -75,15 +75,7 @@ static void bounce_off(const char *name, const SceneEntity *entities, int count,
         scene_transform(&scene.mesh, sheet, turn, place);
         scene_write_speed(&scene.deck, sheet, scene.mesh.node_count, -speed * n[0], -speed * n[1], -speed * n[2]);
     }
-    for (int i = 0; i < count; i++) {
-        SceneEntity entity = entities[i];
-        entity.part = BODY;
-        entity.set = FABRIC;
-        entity.set_type = 1;
-        scene_write_entity(&scene.deck, &entity);
-    }
-    scene_print(&scene.deck, "%s", cards);
-    scene_end(&scene.deck, &scene.mesh);
+    end_with_entities(&scene, entities, count, 0, cards);
     VerifyRun run;
     verify_scene(&run, &scene, &(VerifyOptions){.every = 1});
     double worst = 0;
@@ -140,13 +132,7 @@ static void around_the_rim(const SceneEntity *entity, const char *cards, const d
     scene_add_sphere(&scene.mesh, BODY, SCENE_QUADS, 1, 0.001);
     int sheet = scene_add_sheet(&scene.mesh, FABRIC, SCENE_QUADS, 2, 2, side, side, place[0], place[1], place[2]);
     scene_write_speed(&scene.deck, sheet, scene.mesh.node_count, speed[0], speed[1], speed[2]);
-    SceneEntity open = *entity;
-    open.part = BODY;
-    open.set = FABRIC;
-    open.set_type = open.thick = 1;
-    scene_write_entity(&scene.deck, &open);
-    scene_print(&scene.deck, "%s", cards);
-    scene_end(&scene.deck, &scene.mesh);
+    end_with_entities(&scene, entity, 1, 1, cards);
     VerifyRun run;
     verify_scene(&run, &scene, &(VerifyOptions){.every = 1});
     double most = 0;

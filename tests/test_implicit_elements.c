@@ -104,7 +104,7 @@ static void run_loop(VerifyRun *run)
     double sum = 0.0;
     for (int i = 0; i < 3 * run->model.node_count; i++)
         sum += 0.5 * run->model.mass[i / 3] * run->state.v[i] * run->state.v[i];
-    sum += 0.5 * implicit_elements_inertia(&run->model.implicit, run->model.mass, run->state.v, run->state.v);
+    sum += 0.5 * implicit_elements_inertia(&run->model.implicit, run->model.mass, run->state.v, run->state.v).uu;
     if (run->state.clock->cycle == 0) run->state.energy->initial = run->state.energy->largest = sum;
     if (verify_loop(run)) fail_msg("%s", run->failure.cause);
 }
