@@ -11,6 +11,9 @@
 /* Steps at the largest speed that a search shall last. */
 #define SKIN_STEPS 24.0
 
+/* Share of a step by which the step that contact reckons with may fall short of the last one (eq. C4b). */
+#define STEP_FALL 0.1
+
 static double clock_seconds(void)
 {
     struct timespec now;
@@ -96,16 +99,24 @@ static void set_thinness(ContactLoop *loop)
     }
 }
 
+/* The step that contact reckons with: the longer of the two, which a step that falls at once pulls down in its own time
+ * (eq. C4b). */
+static double longer_step(double last, double before, double next)
+{
+    return fmax(fmax(before, next), last - STEP_FALL * next);
+}
+
 void contact_prepare(ContactLoop *loop, double time, double before, double next, int thread, Team *team)
 {
-    double longer = before > next ? before : next;
     /* what thread 0 writes of this, it writes after the barriers of the search */
     bool eroded = loop->model->has_erosion && *loop->state->eroded_count != loop->eroded_seen;
     bool due = loop->search_due || eroded;
     if (loop->entities) entities_look(loop, time, before, next, thread, team_size(team));
     if (thread == 0) {
         loop->cycle++;
-        loop->step = (ContactStep){.time = time, .before = before, .next = next, .longer = longer};
+        loop->state->contact->longer = longer_step(loop->state->contact->longer, before, next);
+        loop->step =
+            (ContactStep){.time = time, .before = before, .next = next, .longer = loop->state->contact->longer};
         set_thinness(loop);
         if (due) {
             loop->state->contact->skin = choose_skin(loop);
@@ -142,6 +153,7 @@ static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run, int thr
                         .time = loop->step.time,
                         .before = loop->step.before,
                         .next = loop->step.next,
+                        .longer = loop->step.longer,
                         .sliding = room_for_sliding(loop->model),
                         .damping = c->damping,
                         .static_friction = c->static_friction,

@@ -167,9 +167,8 @@ static bool cannot_touch(const ContactLaw *law, const NearFace *f, int32_t node,
     if (!(beyond > 0.0)) return false;
     ContactTouch t = {.node = {node, f->at.corner[0], f->at.corner[1], f->at.corner[2]},
                       .weight = {1.0, -f->at.weight[0], -f->at.weight[1], -f->at.weight[2]}};
-    double longer = law->before > law->next ? law->before : law->next;
     contact_speed(law, &t);
-    return beyond * beyond > longer * longer * vector3_dot(t.speed, t.speed) * (1.0 + 1e-9);
+    return beyond * beyond > law->longer * law->longer * vector3_dot(t.speed, t.speed) * (1.0 + 1e-9);
 }
 
 /* Of the triangles [first, end) of others those that the node may touch in this step. What it has no memory of it may

@@ -42,6 +42,7 @@ typedef struct ContactLaw {
     const double *corner;        /* loads of the last cycle, fourth in a node's row */
     const unsigned char *pulled; /* contact_list_pulled */
     double time, before, next;   /* t_n, dt_{n-1/2}, dt_{n+1/2} */
+    double longer;               /* the step that stiffness and limit reckon with, eq. C4b */
     double sliding;              /* b for friction's springs */
     double damping;              /* share of critical */
     double static_friction, dynamic_friction, decay;
@@ -207,7 +208,7 @@ static inline double contact_limit(const ContactLaw *law, const ContactTouch *t,
     double mean = 0.5 * (law->before + law->next), least = CONTACT_FLOOR * m->distance;
     double way = least - t->gap, pull[3] = {0.0, 0.0, 0.0};
     if (way > 0.0) way = least > 0.0 ? CONTACT_RISE * (way < least ? way : least) : 0.0;
-    double slowest = way / law->next, most = m->limit > 0.0 ? masses->firm : masses->least;
+    double slowest = way / law->longer, most = m->limit > 0.0 ? masses->firm : masses->least;
     for (int i = 0; i < 4; i++) {
         if (t->weight[i] == 0.0) continue;
         const double *a = contact_pull(law, t->node[i]);
@@ -240,9 +241,9 @@ static inline int contact_push(const ContactLaw *law, ContactTouch *t, ContactMe
     memcpy(out->weight, t->weight, sizeof out->weight);
     out->load = masses.load;
     out->blocks = true;
-    double force = 0.0;
+    double force = 0.0, step2 = law->longer * law->longer;
     if (touching) {
-        double step2 = law->next * law->next, z = law->damping;
+        double z = law->damping;
         double root = sqrt(4.0 * z * z + 0.8 * masses.stiff / masses.least) - 2.0 * z; /* of b, eq. C5 */
         double most = root * root * masses.least, wanted = CONTACT_STIFFNESS * t->stiffness * masses.effective;
         if (new_pair) {
@@ -259,7 +260,7 @@ static inline int contact_push(const ContactLaw *law, ContactTouch *t, ContactMe
         double depth = contact_mean_depth(m->distance - t->gap, h);
         force = m->stiffness * depth;
         if (z > 0.0 && depth > 0.0) {
-            double c = sqrt(m->stiffness * masses.effective), bound = root * masses.least / law->next;
+            double c = sqrt(m->stiffness * masses.effective), bound = root * masses.least / law->longer;
             force -= 2.0 * z * (c < bound ? c : bound) * normal_speed;
             force = force > 0.0 ? force : 0.0;
         }
@@ -270,7 +271,7 @@ static inline int contact_push(const ContactLaw *law, ContactTouch *t, ContactMe
     force += m->limit;
     for (int k = 0; k < 3; k++) out->force[k] = force * t->direction[k];
     if (touching && (law->static_friction > 0.0 || law->dynamic_friction > 0.0)) {
-        double sliding = law->sliding * masses.least / (law->next * law->next);
+        double sliding = law->sliding * masses.least / step2;
         contact_friction(law, t, normal_speed, force, m->stiffness < sliding ? m->stiffness : sliding, m);
         for (int k = 0; k < 3; k++) out->force[k] += m->friction[k];
     }

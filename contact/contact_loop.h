@@ -160,7 +160,7 @@ typedef struct ContactRun {
 /* Coefficients of a cycle. */
 typedef struct ContactStep {
     double time, before, next; /* t_n, dt_{n-1/2}, dt_{n+1/2} */
-    double longer;             /* the longer of the two steps */
+    double longer;             /* what contact reckons with, eq. C4b: not less than any of the two */
 } ContactStep;
 
 /* Acceleration of a node by its elements and the gas. */

@@ -203,7 +203,7 @@ static void push_hit(const ContactLoop *loop, const ContactEntity *entity, const
     memcpy(t.speed, hit->speed, sizeof t.speed);
     bool new_pair = m->side == 0;
     double speed = vector3_dot(t.speed, t.direction), h = 0.25 * (law->before + law->next) * fabs(speed);
-    double step2 = law->next * law->next, z = law->damping;
+    double step2 = law->longer * law->longer, z = law->damping;
     ContactMasses masses = masses_of(loop, entity, &t, hit, share);
     double root = sqrt(4.0 * z * z + 0.8 * masses.stiff / masses.least) - 2.0 * z;
     double most = root * root * masses.least, wanted = CONTACT_STIFFNESS * t.stiffness * masses.effective;
@@ -213,7 +213,7 @@ static void push_hit(const ContactLoop *loop, const ContactEntity *entity, const
     contact_stiffen(&t, (wanted < most ? wanted : most) / step2, new_pair, m);
     double depth = contact_mean_depth(m->distance - t.gap, h), force = m->stiffness * depth;
     if (z > 0.0 && depth > 0.0) {
-        double c = sqrt(m->stiffness * masses.effective), bound = root * masses.least / law->next;
+        double c = sqrt(m->stiffness * masses.effective), bound = root * masses.least / law->longer;
         force -= 2.0 * z * (c < bound ? c : bound) * speed;
         force = force > 0.0 ? force : 0.0;
     }
@@ -254,6 +254,7 @@ void entities_push(ContactLoop *loop, int thread, int threads)
         ContactLaw law = {.model = loop->model,
                           .before = loop->step.before,
                           .next = loop->step.next,
+                          .longer = loop->step.longer,
                           .sliding = 0.5 * contact_room_left(loop->model),
                           .damping = entity->damping,
                           .static_friction = entity->friction,

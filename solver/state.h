@@ -13,6 +13,7 @@
 typedef struct ContactClock {
     double skin;        /* of the last search: pairs farther apart than thickness + skin are not looked at [L] */
     double half;        /* contact energy up to the half step after t_n */
+    double longer;      /* the step that contact reckons with, eq. C4b */
     int64_t started;    /* 1 once there was a search */
     int64_t unseen;     /* cycles since the last look at which edges are sharp */
     int64_t fast, lost; /* pairs that met faster than a thickness in a step; that went too deep and were let go */

@@ -162,8 +162,11 @@ static int choose_step(Workspace *w, double rate)
                   "the time step fell to %g from %g", step, clock->step_first);
         return -1;
     }
-    /* the end is met exactly, without a last step of rounding size */
-    if (!w->plan.last && step >= left * (1.0 - 1e-9)) step = left;
+    /* the end is met exactly, by a last step that is not less than half of the others */
+    if (!w->plan.last && step >= left * (1.0 - 1e-9))
+        step = left;
+    else if (!w->plan.last && 1.5 * step > left)
+        step = 0.5 * left;
     clock->step_next = w->plan.dt_next = step;
     /* at the start the compliance is not known yet */
     w->plan.implicit_gas = m->airbag_count > 0 && m->deformable_count > 0 &&
