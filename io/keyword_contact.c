@@ -52,7 +52,7 @@ static const FieldSpec card_a_fields[] = {
     CONTACT_UNUSED_INT("FRCFRQ", 3, 1),
 };
 static const FieldSpec card_b_fields[] = {
-    CARD_REAL("PENMAX", contact.penmax, USED, NONE),
+    CONTACT_UNUSED_REAL("PENMAX", 2, 0),
     CARD_INT("THKOPT", contact.thkopt, USED, NONE),
     CARD_INT("SHLTHK", contact.shlthk, USED, NONE),
     CONTACT_UNUSED_INT("SNLOG", 0, 0),
@@ -148,6 +148,15 @@ static bool check_values(const KeywordRead *read, const ContactDefinition *c)
             c->fs, c->fd, c->dc);
     if (!(c->vdc >= 0.0 && c->vdc <= 200.0))
         keyword_error(read, c->card2, "VDC = %g: viscous damping is given in percent of critical, 0 to 200", c->vdc);
+    if (c->birth < 0.0 || c->death < 0.0)
+        keyword_error(read, c->card2,
+                      "BT = %g, DT = %g: times below 0 have meanings of their own in LS-DYNA (curves, dynamic "
+                      "relaxation) that billow does not have; give times from 0 on, or leave them blank",
+                      c->birth, c->death);
+    else if (c->death <= c->birth && c->birth < 1e19)
+        diagnostics_add(read->cards->diagnostics, SEVERITY_WARNING, c->card2, read->spec->name,
+                        "DT = %g is not after BT = %g: this contact never acts; correct them or remove it", c->death,
+                        c->birth);
     if (c->sst < 0.0 || c->mst < 0.0 || c->sfst < 0.0 || c->sfmt < 0.0 || c->sfs < 0.0 || c->sfm < 0.0)
         keyword_error(read, c->card3, "a factor or a thickness of card 3 is negative");
     if (c->soft != 0 && c->soft != 1 && c->soft != 2)
@@ -217,6 +226,10 @@ static void read_automatic_nodes(KeywordRead *read)
 static void read_nodes(KeywordRead *read)
 {
     read_contact(read, CONTACT_NODES_TO_SURFACE, false);
+}
+static void read_one_way(KeywordRead *read)
+{
+    read_contact(read, CONTACT_ONE_WAY, false);
 }
 static void read_two_way(KeywordRead *read)
 {
@@ -317,6 +330,8 @@ static const KeywordSpec specs[] = {
     CONTACT("*CONTACT_AUTOMATIC_NODES_TO_SURFACE", read_automatic_nodes, one_remark),
     CONTACT("*CONTACT_NODES_TO_SURFACE", read_nodes, old_remark),
     CONTACT("*CONTACT_SURFACE_TO_SURFACE", read_two_way, old_remark),
+    CONTACT("*CONTACT_ONE_WAY_SURFACE_TO_SURFACE", read_one_way, old_remark),
+    CONTACT("*CONTACT_SINGLE_SURFACE", read_self, self_remark),
     {.name = "*CONTROL_CONTACT",
      .cards = control_cards,
      .card_count = (int)(sizeof control_cards / sizeof *control_cards),

@@ -11,6 +11,7 @@
         .name = keyword, .state = KEYWORD_IGNORED, .remark = reason, .prefix = true                                    \
     }
 static const KeywordSpec specs[] = {
+    IGNORED_FAMILY("*CONTACT_FORCE_TRANSDUCER", "it only measures; rcforc has the force of each contact"),
     IGNORED("*CONTROL_ALE", "there are no ALE elements"),
     IGNORED("*CONTROL_CHECK_SHELL", "the build checks shells by itself"),
     IGNORED("*CONTROL_CPU", "stop a run with Ctrl-C or a d3kil file"),

@@ -11,8 +11,17 @@ static const KeywordSpec specs[] = {
             "there are no gas particles; write the bag's gas with uniform pressure, e.g. *AIRBAG_HYBRID"),
     REFUSED("*AIRBAG_ALE", "there is no flow field; write the bag's gas with uniform pressure, e.g. *AIRBAG_HYBRID"),
     REFUSED("*AIRBAG_CPG", "there is no flow field; write the bag's gas with uniform pressure, e.g. *AIRBAG_HYBRID"),
+    REFUSED("*CONTACT_ERODING", "only its name and card 4 differ: write *CONTACT_AUTOMATIC_SINGLE_SURFACE or "
+                                "_SURFACE_TO_SURFACE without card 4; they leave out shells that have eroded"),
+    REFUSED("*CONTACT_INTERIOR", "it keeps soft solids from turning inside out, and there are no deformable solids"),
+    REFUSED("*CONTACT_RIGID", "rigid bodies meet by *CONTACT_AUTOMATIC_SURFACE_TO_SURFACE, with a stable penalty in "
+                              "place of force curves"),
+    REFUSED("*CONTACT_TIED", "nothing is tied; share nodes, or use *CONSTRAINED_TIED_NODES_FAILURE for nodes in one "
+                             "place and *CONSTRAINED_EXTRA_NODES for nodes on a rigid part"),
     REFUSED("*DEFINE_TABLE", "a fabric takes one curve for each fibre; write the curve of the uniaxial test at the "
                              "strain rate of the problem as *DEFINE_CURVE"),
+    REFUSED("*ELEMENT_MASS", "there is no mass but that of elements; raise RO of the shells around the node, or give a "
+                             "rigid part its mass by *PART_INERTIA"),
     REFUSED("*ELEMENT_SEATBELT_ACCELEROMETER", "nodout has the accelerations of nodes, rbdout those of rigid bodies"),
     REFUSED("*ELEMENT_SEATBELT_PRETENSIONER", "straps have neither retractors nor pretensioners"),
     REFUSED("*ELEMENT_SEATBELT_RETRACTOR", "straps have neither retractors nor pretensioners"),
@@ -20,6 +29,8 @@ static const KeywordSpec specs[] = {
     REFUSED("*ELEMENT_SEATBELT_SLIPRING", "straps do not slide through rings; end the strap at the ring's node"),
     REFUSED("*INITIAL_FOAM_REFERENCE_GEOMETRY",
             "it is for solids and rubber; shells of *MAT_FABRIC take *AIRBAG_REFERENCE_GEOMETRY"),
+    REFUSED("*LOAD_BODY_PARTS", "body loads act on the whole model; *LOAD_GRAVITY_PART acts on parts"),
+    REFUSED("*LOAD_BODY_VECTOR", "write the components of the vector as *LOAD_BODY_X, _Y and _Z"),
     REFUSED("*LOAD_THERMAL", "fabric has no thermal strain"),
     REFUSED("*MAT_ADD_THERMAL_EXPANSION", "fabric has no thermal strain"),
 };

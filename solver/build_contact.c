@@ -23,6 +23,9 @@ typedef struct Side {
     int side;
     int type, id, box;
     const char *field;
+    int cut;         /* facets thinner than SST or MST asks for, since their sides are short */
+    double thinnest; /* the least of their thicknesses */
+    double given;    /* SST or MST */
 } Side;
 
 void contact_surfaces_free(ContactSurfaces *surfaces)
@@ -89,6 +92,10 @@ static int add_facet(Side *s, int32_t shell, const int32_t *node)
 {
     if (!in_box(s, node, node[3] == node[2] ? 3 : 4)) return 0;
     double radius = facet_radius(s->b, s->card, s->side, shell, node);
+    if (radius > 0.0 && 2.0 * radius < s->given) {
+        s->thinnest = s->cut == 0 ? 2.0 * radius : fmin(s->thinnest, 2.0 * radius);
+        s->cut++;
+    }
     int32_t known = shell >= 0 ? s->facet_of[shell] : -1;
     if (known >= 0) {
         ContactFacet *facet = &s->surfaces->facets.items[known];
@@ -235,6 +242,17 @@ static int resolve_side(Side *s)
     return -1;
 }
 
+/* A thickness that was asked for and cannot be had. */
+static void warn_of_cut(const Side *s)
+{
+    if (s->cut == 0) return;
+    diagnostics_add(s->b->diagnostics, SEVERITY_WARNING, s->card->card3, KEYWORD,
+                    "%s = %g is more than %g of the shortest side of %d shells or segments, which get no more than "
+                    "that (at least %.3g), or neighbours in one sheet would touch; give a smaller %s or a coarser mesh",
+                    s->side == CONTACT_SIDE_A ? "SST" : "MST", s->given, THICKEST_SHARE, s->cut, s->thinnest,
+                    s->side == CONTACT_SIDE_A ? "SST" : "MST");
+}
+
 /* Nodes of the facets meet triangles too, except those of the surface that is only met. */
 static void mark_nodes(const ContactDefinition *card, ContactSurfaces *surfaces)
 {
@@ -274,8 +292,10 @@ static int resolve_contact(Builder *b, FacetMap *map, const ContactDefinition *c
     int status = facet_of && surfaces->node_side && surfaces->node_radius ? 0 : -1;
     for (int i = 0; !status && i < b->shell_count; i++) facet_of[i] = -1;
     bool self = card->kind == CONTACT_SELF;
-    Side a = {b, card, surfaces, map, facet_of, CONTACT_SIDE_A, card->sstyp, card->ssid, card->sboxid, "SSID"};
-    Side other = {b, card, surfaces, map, facet_of, CONTACT_SIDE_B, card->mstyp, card->msid, card->mboxid, "MSID"};
+    Side a = {b,           card,       surfaces,     map,    facet_of,          CONTACT_SIDE_A,
+              card->sstyp, card->ssid, card->sboxid, "SSID", .given = card->sst};
+    Side other = {b,           card,       surfaces,     map,    facet_of,          CONTACT_SIDE_B,
+                  card->mstyp, card->msid, card->mboxid, "MSID", .given = card->mst};
     if (!status) {
         status = resolve_side(&a);
         if (!self && resolve_side(&other)) status = -1;
@@ -283,6 +303,8 @@ static int resolve_contact(Builder *b, FacetMap *map, const ContactDefinition *c
     for (size_t i = 0; self && i < surfaces->facets.count; i++)
         surfaces->facets.items[i].side = CONTACT_SIDE_A | CONTACT_SIDE_B;
     if (!status) {
+        warn_of_cut(&a);
+        warn_of_cut(&other);
         mark_nodes(card, surfaces);
         status = check_thickness(b, card, surfaces);
     }

@@ -50,6 +50,67 @@ static void turn_tensor(const double axes[9], const double local[6], double tens
         }
 }
 
+/* Axes about which the body has no inertia do not turn, whatever spin the card gives. */
+static void warn_of_zero(const RigidBody *body, const InertiaCard *card, const char *keyword, Diagnostics *diagnostics)
+{
+    const double *moment = body->inertia;
+    if (moment[0] > 0 && moment[1] > 0 && moment[2] > 0) return;
+    diagnostics_add(diagnostics, SEVERITY_WARNING, card->tensor_source, keyword,
+                    "rigid body %d does not turn about axes without inertia: its principal moments are %g, %g, %g; "
+                    "give IXX to IZZ",
+                    body->part_id, moment[0], moment[1], moment[2]);
+}
+
+/* Mass that deformable shells give to the body's nodes, and its moments about the principal axes. */
+static void fabric_on_body(const MotionInput *input, const Motion *motion, int number, double *mass, double moment[3])
+{
+    const RigidBody *body = &motion->rigid_bodies[number];
+    const DeckIndex *index = input->index;
+    const Definitions *d = index->definitions;
+    for (size_t p = 0; p < d->parts.count; p++) {
+        if (motion->part_body[p] != MOTION_DEFORMABLE) continue;
+        for (int32_t k = index->part_shell_start[p]; k < index->part_shell_start[p + 1]; k++) {
+            const ShellDefinition *shell = &d->shells.items[index->part_shell[k]];
+            int corners = shell->node[3] == shell->node[2] ? 3 : 4;
+            double share = input->shell_mass[index->part_shell[k]] / corners, arm[3], local[3];
+            for (int c = 0; c < corners; c++) {
+                int32_t node = id_map_find(&index->nodes, shell->node[c]);
+                if (node < 0 || motion->node_body[node] != number) continue;
+                vector3_subtract(input->x + 3 * (size_t)node, body->centre, arm);
+                matrix3_apply(body->axes, arm, local);
+                double square = vector3_dot(local, local);
+                *mass += share;
+                for (int i = 0; i < 3; i++) moment[i] += share * (square - local[i] * local[i]);
+            }
+        }
+    }
+}
+
+void rigid_inertia_check(const MotionInput *input, const Motion *motion, int number, Diagnostics *diagnostics)
+{
+    const RigidBody *body = &motion->rigid_bodies[number];
+    const char *keyword;
+    const InertiaCard *card = find_card(input, body, &keyword);
+    double mass = 0, moment[3] = {0, 0, 0};
+    if (!card || !input->shell_mass) return;
+    fabric_on_body(input, motion, number, &mass, moment);
+    if (mass > body->mass)
+        diagnostics_add(diagnostics, SEVERITY_WARNING, card->source, keyword,
+                        "TM = %g of rigid body %d is less than the %g that deformable shells give to its nodes: the "
+                        "stable step is too long for it; raise TM or lower TSSFAC",
+                        card->tm, body->part_id, mass);
+    for (int i = 0; i < 3; i++) {
+        if (!(body->inertia[i] > 0) || moment[i] <= body->inertia[i]) continue;
+        diagnostics_add(diagnostics, SEVERITY_WARNING, card->tensor_source, keyword,
+                        "the moment of inertia %g of rigid body %d about (%.4g, %.4g, %.4g) is less than the %g of "
+                        "the deformable shells at its nodes: the stable step is too long for it; correct the moments "
+                        "or lower TSSFAC",
+                        body->inertia[i], body->part_id, body->axes[3 * i], body->axes[3 * i + 1],
+                        body->axes[3 * i + 2], moment[i]);
+        return;
+    }
+}
+
 int rigid_inertia_apply(const MotionInput *input, RigidBody *body, Diagnostics *diagnostics)
 {
     const char *keyword;
@@ -78,6 +139,7 @@ int rigid_inertia_apply(const MotionInput *input, RigidBody *body, Diagnostics *
             body->part_id, body->inertia[0], body->inertia[1], body->inertia[2]);
         return -1;
     }
+    warn_of_zero(body, card, keyword, diagnostics);
     memcpy(body->velocity, card->v, sizeof body->velocity);
     memcpy(body->spin, card->w, sizeof body->spin);
     return 1;

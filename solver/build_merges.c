@@ -12,6 +12,15 @@ static int32_t find_rigid(const MotionInput *input, int id, const char *field, S
 {
     int32_t part = id_map_find(&input->index->parts, id);
     if (part >= 0 && rigid_material(input, part)) return part;
+    const Definitions *d = input->index->definitions;
+    for (size_t k = 0; part < 0 && k < d->nodal_bodies.count; k++) {
+        if (d->nodal_bodies.items[k].id != id) continue;
+        diagnostics_add(diagnostics, SEVERITY_ERROR, source, keyword,
+                        "%s = %d is a nodal rigid body, to which nothing is joined here; put all nodes into its set, "
+                        "or give its nodes to a rigid part by *CONSTRAINED_EXTRA_NODES_SET",
+                        field, id);
+        return -1;
+    }
     diagnostics_add(diagnostics, SEVERITY_ERROR, source, keyword,
                     part < 0 ? "%s = %d: there is no part of this id; define it or correct the card"
                              : "%s = %d is no rigid part; give it *MAT_RIGID or remove the card",

@@ -18,6 +18,7 @@ static int weigh_bodies(const MotionInput *input, const double *mass, Motion *mo
         if (result < 0) return motion_no_memory("*MAT_RIGID", diagnostics);
         int given = rigid_inertia_apply(input, body, diagnostics);
         if (given < 0) status = -1;
+        if (given > 0) rigid_inertia_check(input, motion, b, diagnostics);
         if (result == 0 || given != 0) continue;
         int32_t part = id_map_find(&input->index->parts, body->part_id);
         Source source = BILLOW_NO_SOURCE;

@@ -178,7 +178,8 @@ static int check_conflicts(const MotionInput *input, const Motion *motion, const
             bool rigid = a->node < 0;
             int id = rigid ? motion->rigid_bodies[a->rigid_body].part_id
                            : input->index->definitions->nodes.items[a->node].id;
-            diagnostics_add(diagnostics, SEVERITY_ERROR, BILLOW_NO_SOURCE, "*BOUNDARY_PRESCRIBED_MOTION",
+            const PrescribedMotionDefinition *later = &input->index->definitions->motions.items[list->items[j].order];
+            diagnostics_add(diagnostics, SEVERITY_ERROR, later->source, keyword_of(later),
                             "%s %d has two motions along the same direction at the same time; remove one, or part them "
                             "by BIRTH and DEATH",
                             rigid ? "rigid part" : "node", id);

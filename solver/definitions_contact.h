@@ -27,7 +27,6 @@ typedef struct ContactDefinition {
     int soft;
     double sofscl;
     int lcidab;
-    double penmax;
     int thkopt, shlthk, ignore;
     Source source, card1, card2, card3, card_a;
 } ContactDefinition;

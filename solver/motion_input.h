@@ -27,6 +27,10 @@ int rigid_merges_resolve(const MotionInput *input, int32_t *lead, Diagnostics *d
  * offset must be allocated (solver/build_inertia.c). 1 if it had one, 0 if not, -1 after an error. */
 int rigid_inertia_apply(const MotionInput *input, RigidBody *body, Diagnostics *diagnostics);
 
+/* Warns where the card of a body gives less mass or inertia than deformable shells put on its nodes: their bound of the
+ * stable step does not hold then. number: of the body (solver/build_inertia.c). */
+void rigid_inertia_check(const MotionInput *input, const Motion *motion, int number, Diagnostics *diagnostics);
+
 /* Body of a rigid part or nodal rigid body by the user's id: its index, MOTION_FIXED, MOTION_DEFORMABLE, or -3 if there
  * is neither a part nor a body of this id. */
 int motion_find_body(const MotionInput *input, const Motion *motion, int id);

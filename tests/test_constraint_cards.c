@@ -155,7 +155,7 @@ static void doubtful_motion_is_pointed_out(void **unused)
     DECK_ADD(deck.d.motions, motion_card(0, 20, 1, 2));
     DECK_ADD(deck.d.motions, motion_card(0, 20, 1, 0));
     assert_int_equal(deck_build(&deck), -1);
-    deck_expect_error(&deck, 0, "two motions", "node 20");
+    deck_expect_error(&deck, 30, "two motions", "node 20");
     deck_end(&deck);
 }
 

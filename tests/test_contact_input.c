@@ -77,6 +77,46 @@ static void test_wrong_fields(void **state)
                      "*CONTACT_AUTOMATIC_SINGLE_SURFACE_SMOOTH", "SMOOTH");
 }
 
+/* Times below 0 mean other things in LS-DYNA; a contact that ends before it begins is warned of; PENMAX has no effect.
+ */
+static void test_times_and_penmax(void **state)
+{
+    (void)state;
+    assert_one_error(CONTACT("AUTOMATIC_SINGLE_SURFACE", "1,0,2\n,,,,,,-0.01\n\n"), 3,
+                     "*CONTACT_AUTOMATIC_SINGLE_SURFACE", "BT = -0.01");
+    assert_one_error(CONTACT("AUTOMATIC_SINGLE_SURFACE", "1,0,2\n,,,,,,0,-3\n\n"), 3,
+                     "*CONTACT_AUTOMATIC_SINGLE_SURFACE", "DT = -3");
+    KeywordCase c = read_case(CONTACT("AUTOMATIC_SINGLE_SURFACE", "1,0,2\n,,,,,,0.2,0.1\n\n\n0.4\n"));
+    assert_int_equal(c.g.errors, 0);
+    assert_int_equal(c.g.warnings, 1);
+    for (size_t i = 0; i < c.g.count; i++) {
+        if (c.g.messages[i].severity != SEVERITY_WARNING) continue;
+        assert_non_null(strstr(c.g.messages[i].text, "this contact never acts"));
+        assert_int_equal(c.g.messages[i].source.line, 3);
+    }
+    assert_int_equal(count_notes(&c, "PENMAX"), 1);
+    close_case(&c);
+}
+
+/* Older names of the same contacts are read; transducers only measure; what billow does not have says what to use. */
+static void test_families(void **state)
+{
+    (void)state;
+    KeywordCase c = read_fine(CONTACT("ONE_WAY_SURFACE_TO_SURFACE", "1,2,3,3\n\n\n") CONTACT(
+        "SINGLE_SURFACE_ID", "4\n1,0,2\n\n\n") CONTACT("FORCE_TRANSDUCER_PENALTY", "1,0,3\n\n\n"));
+    assert_int_equal(c.d.contacts.count, 2);
+    assert_int_equal(c.d.contacts.items[0].kind, CONTACT_ONE_WAY);
+    assert_false(c.d.contacts.items[0].automatic);
+    assert_int_equal(c.d.contacts.items[1].kind, CONTACT_SELF);
+    assert_true(c.d.contacts.items[1].automatic);
+    assert_int_equal(count_notes(&c, "only measures"), 1);
+    close_case(&c);
+    assert_one_error(CONTACT("TIED_NODES_TO_SURFACE", "1,2,3,3\n\n\n"), 1, "*CONTACT_TIED_NODES_TO_SURFACE",
+                     "nothing is tied");
+    assert_one_error(CONTACT("ERODING_SINGLE_SURFACE", "1,0,2\n\n\n1\n"), 1, "*CONTACT_ERODING_SINGLE_SURFACE",
+                     "without card 4");
+}
+
 static const char model_head[] = "*CONTROL_TERMINATION\n1e-4\n"
                                  "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
                                  "*ELEMENT_SHELL\n1,1,1,2,3,4\n2,2,5,6,7,8\n"
@@ -120,6 +160,23 @@ static void test_wrong_surfaces(void **state)
                                         "LCIDAB"});
     expect_errors("*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n1,2,3,3\n\n\n", 0, NULL);
     expect_errors("*CONTACT_NODES_TO_SURFACE\n2,2,3,3\n\n\n", 0, NULL);
+}
+
+/* A thickness that the mesh is too fine for is not cut in silence. */
+static void test_cut_thickness(void **state)
+{
+    (void)state;
+    static const char *const decks[] = {"*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n1,2,3,3\n\n,,0.3,0.9\n",
+                                        "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n1,2,3,3\n\n,,0.3,0.4\n"};
+    for (int i = 0; i < 2; i++) {
+        char text[4000];
+        VerifyRun run;
+        snprintf(text, sizeof text, "%s%s*END\n", model_head, decks[i]);
+        assert_int_equal(verify_build(&run, text, strlen(text), &(VerifyOptions){0}), 0);
+        assert_int_equal(verify_message(&run.diagnostics, SEVERITY_WARNING, "MST = 0.9 is more than 0.4"), i == 0);
+        assert_int_equal(verify_message(&run.diagnostics, SEVERITY_WARNING, "SST"), 0);
+        verify_free(&run);
+    }
 }
 
 /* What the reader finds and what the build finds, with the lines of the deck, in one list: a set of zero segments,
@@ -183,8 +240,9 @@ static void test_inspection(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cards), cmocka_unit_test(test_wrong_fields),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cards),          cmocka_unit_test(test_wrong_fields),
                                        cmocka_unit_test(test_wrong_surfaces), cmocka_unit_test(test_one_list),
-                                       cmocka_unit_test(test_inspection)};
+                                       cmocka_unit_test(test_inspection),     cmocka_unit_test(test_times_and_penmax),
+                                       cmocka_unit_test(test_families),       cmocka_unit_test(test_cut_thickness)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

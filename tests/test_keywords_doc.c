@@ -120,7 +120,7 @@ static void test_names_are_found(void **state)
     assert_null(base);
     assert_string_equal(keyword_nearest("*NDOE"), "*NODE");
     assert_string_equal(keyword_nearest("*DEFINE_CURV"), "*DEFINE_CURVE");
-    assert_null(keyword_nearest("*CONTACT_TIED"));
+    assert_null(keyword_nearest("*INTERFACE_TIED"));
 }
 
 int main(int argc, char **argv)

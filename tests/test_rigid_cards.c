@@ -224,12 +224,54 @@ static void bad_bodies_are_told_together(void **state)
     verify_free(&run);
 }
 
+/* Inertia that fits neither a body nor the fabric on its nodes is warned of with the card's line. */
+static void doubtful_inertia_is_told(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *numbers, *warning; /* TM, then the moments */
+    } cases[] = {{"4\n2,0,0,2,0,2", NULL},
+                 {"3\n2,0,0,2,0,2", "TM = 3 of rigid body 9 is less than the 4"},
+                 {"4\n1,0,0,1,0,1", "the moment of inertia 1 of rigid body 9 about"},
+                 {"4\n0,0,0,0,0,0", "does not turn about axes without inertia"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Scene scene = {0};
+        VerifyRun run;
+        begin(&scene, 0.5);
+        wall_add_square(&scene, 0, 0, 0); /* masses of 1 at its corners: moments 1, 1 and 2 */
+        scene_print(&scene.deck,
+                    "*SET_NODE_LIST\n7\n1,2,3,4\n*CONSTRAINED_NODAL_RIGID_BODY_INERTIA\n9,0,7\n.5,.5,0,%s\n0\n",
+                    cases[i].numbers);
+        build(&run, &scene, 0);
+        if (cases[i].warning) assert_true(verify_message(&run.diagnostics, SEVERITY_WARNING, cases[i].warning));
+        assert_int_equal(run.diagnostics.warnings, cases[i].warning != NULL);
+        verify_free(&run);
+    }
+}
+
+/* A nodal rigid body is no part: the message says what it is. */
+static void nodal_bodies_are_not_joined(void **state)
+{
+    (void)state;
+    Scene scene = {0};
+    VerifyRun run;
+    begin(&scene, 1);
+    wall_add_square(&scene, -2, 0, 0);
+    add_bar(&scene, 1, 2, 1, 0, 0, 0);
+    scene_print(&scene.deck, "*SET_NODE_LIST\n7\n1,2\n*CONSTRAINED_NODAL_RIGID_BODY\n9,0,7\n"
+                             "*CONSTRAINED_RIGID_BODIES\n2,9\n");
+    build(&run, &scene, 1);
+    expect(&run, "PIDC = 9 is a nodal rigid body");
+    verify_free(&run);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solids_have_mass_and_faces),   cmocka_unit_test(joined_parts_move_as_one),
         cmocka_unit_test(node_sets_become_bodies),      cmocka_unit_test(inertia_is_given_by_a_card),
-        cmocka_unit_test(bad_bodies_are_told_together),
+        cmocka_unit_test(bad_bodies_are_told_together), cmocka_unit_test(doubtful_inertia_is_told),
+        cmocka_unit_test(nodal_bodies_are_not_joined),
     };
     return cmocka_run_group_tests_name("cards of rigid bodies", tests, NULL, NULL);
 }
