@@ -39,6 +39,28 @@ static void read_load_node_set(KeywordRead *read)
     read_node_load(read, true);
 }
 
+#define AT(member) offsetof(RigidLoadDefinition, member)
+static const FieldSpec rigid_load_fields[] = {
+    CARD_INT("PID", pid, USED, ID_PART),       CARD_INT("DOF", dof, USED, NONE),
+    CARD_INT("LCID", lcid, USED, ID_FUNCTION), CARD_REAL_OR("SF", sf, 1.0, USED, NONE),
+    CARD_INT("CID", cid, USED, ID_DEFINE),     CARD_INT("M1", m1, USED, ID_NODE),
+    CARD_INT("M2", m2, USED, ID_NODE),         CARD_INT("M3", m3, USED, ID_NODE),
+};
+#undef AT
+static const CardSpec rigid_load_cards[] = {{"card 1", "one for each load", CARD_FIELDS(rigid_load_fields)}};
+
+static void read_load_rigid_body(KeywordRead *read)
+{
+    while (keyword_more(read)) {
+        RigidLoadDefinition card = {0};
+        if (keyword_card(read, 0, &card, true, &card.source)) continue;
+        if (!keyword_check_id(read, card.pid, "PID", card.source)) continue;
+        RigidLoadDefinition *load = KEYWORD_APPEND(read, read->definitions->rigid_loads);
+        if (!load) return;
+        *load = card;
+    }
+}
+
 /* A pressure on one segment; N5 to N8 are those of quadratic segments. */
 typedef struct SegmentCard {
     SegmentLoadDefinition load;
@@ -175,6 +197,14 @@ static const KeywordSpec specs[] = {
      .card_count = 1,
      .read = read_load_node_set,
      .remark = "DOF 1 to 4; moments are refused. DOF = 4 follows the normal of M1, M2, M3."},
+    {.name = "*LOAD_RIGID_BODY",
+     .cards = rigid_load_cards,
+     .card_count = 1,
+     .read = read_load_rigid_body,
+     .remark =
+         "DOF 1 to 3 are forces on the centre of mass, 5 to 7 moments about it, along x, y, z (or those of CID at "
+         "time 0); 4 and 8 follow the normal of M1, M2, M3. PID may be a part joined to another, or a nodal "
+         "rigid body."},
     {.name = "*LOAD_SEGMENT",
      .options = {"ID"},
      .cards = segment_cards,

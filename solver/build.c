@@ -85,7 +85,7 @@ static int take_motion(Builder *b)
     for (int p = 0; p < m->part_count; p++) m->parts[p].rigid_body = motion->part_body[p];
     void *blocks[] = {motion->constraints.supports, motion->constraints.motions, motion->constraints.hanging,
                       motion->loads.node_loads,     motion->loads.classes,       motion->node_class,
-                      motion->rigid_bodies,         motion->segment_loads};
+                      motion->rigid_bodies,         motion->segment_loads,       motion->loads.rigid_loads};
     int status = 0;
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) status |= builder_adopt(b, blocks[i]);
     for (int i = 0; i < motion->rigid_body_count; i++)

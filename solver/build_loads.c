@@ -151,6 +151,7 @@ int build_loads(const MotionInput *input, Motion *motion, Diagnostics *diagnosti
     if (!motion_ready(motion)) return -1;
     int status = build_point_loads(input, motion, diagnostics);
     if (build_segment_loads(input, motion, diagnostics)) status = -1;
+    if (build_rigid_loads(input, motion, diagnostics)) status = -1;
     if (build_body_classes(input, motion, diagnostics)) status = -1;
     return status;
 }

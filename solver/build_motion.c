@@ -135,6 +135,10 @@ int motion_renumber(Motion *motion, const int32_t *new_index)
         load->node = new_index[load->node];
         for (int i = 0; i < 3 && load->follower; i++) load->m[i] = new_index[load->m[i]];
     }
+    for (int k = 0; k < motion->loads.rigid_load_count; k++) {
+        RigidLoad *load = &motion->loads.rigid_loads[k];
+        for (int i = 0; i < 3 && load->follower; i++) load->m[i] = new_index[load->m[i]];
+    }
     for (int b = 0; b < motion->rigid_body_count; b++) renumber_body(&motion->rigid_bodies[b], new_index, body_scratch);
     for (int s = 0; s < 4 * motion->segment_count; s++) motion->segment_node[s] = new_index[motion->segment_node[s]];
     permute(motion->node_class, sizeof *motion->node_class, motion->node_count, new_index, scratch);
@@ -152,6 +156,7 @@ void motion_free(Motion *motion)
     memory_free(motion->constraints.motions);
     memory_free(motion->constraints.hanging);
     memory_free(motion->loads.node_loads);
+    memory_free(motion->loads.rigid_loads);
     memory_free(motion->loads.classes);
     memory_free(motion->node_class);
     memory_free(motion->fixed);

@@ -41,6 +41,7 @@ void definitions_free(Definitions *d)
                      d->motions.items,
                      d->velocities.items,
                      d->node_loads.items,
+                     d->rigid_loads.items,
                      d->segment_loads.items,
                      d->body_loads.items,
                      d->gravity_parts.items,

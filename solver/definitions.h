@@ -55,6 +55,7 @@ typedef struct Definitions {
     LIST(PrescribedMotionDefinition) motions;
     LIST(InitialVelocityDefinition) velocities;
     LIST(NodeLoadDefinition) node_loads;
+    LIST(RigidLoadDefinition) rigid_loads;
     LIST(SegmentLoadDefinition) segment_loads;
     LIST(BodyLoadDefinition) body_loads;
     LIST(GravityPartDefinition) gravity_parts;

@@ -43,6 +43,12 @@ typedef struct NodeLoadDefinition { /* *LOAD_NODE_POINT / _SET */
     Source source;
 } NodeLoadDefinition;
 
+typedef struct RigidLoadDefinition { /* *LOAD_RIGID_BODY */
+    int pid, dof, lcid, cid, m1, m2, m3;
+    double sf;
+    Source source;
+} RigidLoadDefinition;
+
 typedef struct SegmentLoadDefinition { /* *LOAD_SEGMENT / _SET (_ID): pressure from curve lcid times sf, arrival time at
                                         */
     bool is_set;

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "solver/curve.h"
+#include "solver/rigid_loads.h"
 
 /* *LOAD_NODE: force scale * curve(t) along a direction, or following a triangle's normal. */
 typedef struct NodeLoad {
@@ -44,8 +45,9 @@ typedef struct BodyClass {
 } BodyClass;
 
 typedef struct Loads {
-    int node_load_count, class_count;
+    int node_load_count, class_count, rigid_load_count;
     NodeLoad *node_loads;
+    RigidLoad *rigid_loads;
     BodyClass *classes;
 } Loads;
 

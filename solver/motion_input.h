@@ -67,6 +67,9 @@ int build_hanging_nodes(const MotionInput *input, Motion *motion, Diagnostics *d
 /* *BOUNDARY_PRESCRIBED_MOTION into motion->constraints (solver/build_prescribed.c). */
 int build_prescribed_motions(const MotionInput *input, Motion *motion, Diagnostics *diagnostics);
 
+/* *LOAD_RIGID_BODY into motion->loads (solver/build_rigid_loads.c). */
+int build_rigid_loads(const MotionInput *input, Motion *motion, Diagnostics *diagnostics);
+
 /* *BOUNDARY_SPC and TC codes into motion->constraints (solver/build_supports.c). */
 int build_supports(const MotionInput *input, Motion *motion, Diagnostics *diagnostics);
 

@@ -65,7 +65,7 @@ typedef struct RigidPrescription {
 typedef struct RigidField {
     double gravity[3];
     double damping[6];          /* translation, rotation about the global axes [1/T] */
-    double force[3], moment[3]; /* of contact entities, about the centre */
+    double force[3], moment[3]; /* of contact entities and *LOAD_RIGID_BODY, about the centre */
 } RigidField;
 
 /* Work done on the body over a step, by cause; rigid_body_step adds to it. The nodal forces' work is not in it. */

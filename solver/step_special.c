@@ -77,6 +77,17 @@ static void accelerate(Workspace *w)
     }
 }
 
+/* The loads of *LOAD_RIGID_BODY on one body. */
+static void push_body(const Workspace *w, int body, RigidWrench *pushed, RigidField *field)
+{
+    const Model *m = w->model;
+    rigid_loads_at(m->loads.rigid_loads, m->loads.rigid_load_count, body, m->curves, w->plan.time, w->state->x, pushed);
+    for (int i = 0; i < 3; i++) {
+        field->force[i] += pushed->force[i];
+        field->moment[i] += pushed->moment[i];
+    }
+}
+
 static void move_rigid_bodies(Workspace *w, NodeSums *t)
 {
     const Model *m = w->model;
@@ -87,13 +98,23 @@ static void move_rigid_bodies(Workspace *w, NodeSums *t)
         RigidField field = {0};
         RigidPrescription prescription = {0};
         RigidWork work = {0};
+        RigidWrench pushed = {0};
+        double v_before[3], spin_before[3];
         if (m->loads.class_count) /* class 0 is empty */
             loads_body_at(&m->loads.classes[body->body_class], m->curves, plan->time, field.gravity, field.damping);
         if (m->entity_count > 0) entities_add_wrench(w->contact, i, field.force, field.moment);
+        if (m->loads.rigid_load_count > 0) push_body(w, i, &pushed, &field);
+        memcpy(v_before, state->rigid[i].v, sizeof v_before);
+        memcpy(spin_before, state->rigid[i].spin, sizeof spin_before);
         rigid_body_prescribe(&m->constraints, i, body, &state->rigid[i], m->curves, plan->time, plan->dt_mean,
                              plan->dt_next, &prescription);
         rigid_body_step(body, &state->rigid[i], state->x, w->force, &field, &prescription, plan->dt_mean, plan->dt_next,
                         state->v, &work);
+        const RigidState *after = &state->rigid[i];
+        const bool at_start = !(plan->dt_before > 0.0);
+        if (m->loads.rigid_load_count > 0)
+            t->reaction += rigid_loads_work(&pushed, at_start ? after->v : v_before, after->v,
+                                            at_start ? after->spin : spin_before, after->spin, plan->dt_mean);
         t->reaction += work.reaction + work.gravity;
         t->damping += work.damping;
         t->kinetic += state->rigid[i].kinetic;
