@@ -42,9 +42,12 @@ typedef struct RigidWall {
     bool displacement; /* the curve is the displacement, not the velocity */
     double direction[3];    /* of the prescribed motion, as written (its length scales the curve) */
     unsigned char *tracked; /* 1: the wall acts on this node (moving_count) */
+    unsigned char *pushed;  /* 1: it pushes this node of a moving rigid body (moving_count); NULL: none */
+    double penalty;         /* on such nodes: share of what is stable (eq. W12) */
     int node_count;         /* nodes that the card names, fixed ones included */
     int behind_count;       /* of them, those that start behind the wall */
-    int rigid_count;        /* of them, those of rigid parts, which the wall does not see */
+    int rigid_count;        /* of them, those of moving rigid parts that the wall does not see */
+    int pushed_count;       /* of them, those of moving rigid parts that it pushes */
 } RigidWall;
 
 /* Mutable, plain data in the State buffer. */

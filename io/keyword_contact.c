@@ -238,7 +238,7 @@ static void read_two_way(KeywordRead *read)
 
 #define AT(member) offsetof(ControlDefinitions, contact.member)
 static const FieldSpec control1_fields[] = {
-    CARD_REAL_OR("SLSFAC", slsfac, 0.1, USED, NONE), CARD_REAL("RWPNAL", rwpnal, LISTED, NONE),
+    CARD_REAL_OR("SLSFAC", slsfac, 0.1, USED, NONE), CARD_REAL("RWPNAL", rwpnal, USED, NONE),
     CARD_INT_OR("ISLCHK", islchk, 1, LISTED, NONE),  CARD_INT("SHLTHK", shlthk, USED, NONE),
     CARD_INT_OR("PENOPT", penopt, 1, LISTED, NONE),  CARD_INT("THKCHG", thkchg, LISTED, NONE),
     CARD_INT_OR("ORIEN", orien, 1, LISTED, NONE),    CARD_INT("ENMASS", enmass, USED, NONE),
@@ -302,6 +302,11 @@ static void read_control_contact(KeywordRead *read)
     if (status == 0) keyword_finish(read);
     if (control->contact.slsfac < 0.0)
         keyword_error(read, control->contact.source, "SLSFAC = %g must not be negative", control->contact.slsfac);
+    if (control->contact.rwpnal < 0.0)
+        keyword_error(read, control->contact.source,
+                      "RWPNAL = %g (a penalty on the nodes of fabric too) is not read by billow " BILLOW_VERSION
+                      "; fabric stops at rigid walls without one: write %g for rigid parts",
+                      control->contact.rwpnal, -control->contact.rwpnal);
     if (card4.ignore < 0 || card4.ignore > 2)
         keyword_error(read, control->contact.source, "IGNORE = %d (card 4) is not known; use 0, 1 or 2", card4.ignore);
 }
@@ -336,7 +341,8 @@ static const KeywordSpec specs[] = {
      .cards = control_cards,
      .card_count = (int)(sizeof control_cards / sizeof *control_cards),
      .read = read_control_contact,
-     .remark = "SLSFAC scales the penalty of contacts with SOFT = 0; SHLTHK and IGNORE are defaults of the contacts. "
+     .remark = "SLSFAC scales the penalty of contacts with SOFT = 0; RWPNAL > 0 that of rigid walls on rigid parts, "
+               "which pass through walls with RWPNAL = 0; SHLTHK and IGNORE are defaults of the contacts. "
                "ENMASS = 2: nodes whose shells have all eroded stay in contact."},
 };
 

@@ -171,7 +171,8 @@ static const KeywordSpec specs[] = {
      .card_count = 6,
      .read = read_planar,
      .remark = "Nodes that start behind the wall may move towards its front only, as in LS-DYNA; `billow check` counts "
-               "them. Nodes of rigid parts pass, as in LS-DYNA with RWPNAL = 0. NSID = 0: all nodes, with OFFSET "
+               "them. Nodes of moving rigid parts pass unless RWPNAL of *CONTROL_CONTACT is "
+               "above 0; they bounce and do not weld. NSID = 0: all nodes, with OFFSET "
                "> 0 those not farther in front than that. FRIC: 0 to 1 Coulomb, 1 no sliding, 2 and 3 weld. The option "
                "ORTHO is refused."},
     GEOMETRIC("FLAT", flat_cards,

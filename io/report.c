@@ -260,6 +260,9 @@ void report_write_walls(const Model *model, FILE *stream)
                 : wall->curve >= 0 ? ", driven by a curve"
                                    : "");
         fprintf(stream, "    %d nodes, %d of them start behind the wall\n", wall->node_count, wall->behind_count);
+        if (wall->pushed_count + wall->rigid_count > 0)
+            fprintf(stream, "    of moving rigid parts: %d that bounce off it, %d that pass\n", wall->pushed_count,
+                    wall->rigid_count);
     }
 }
 

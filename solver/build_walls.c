@@ -10,6 +10,9 @@
 /* A gap above minus this share of the model's size is in front of a wall: rounding of sums of steps. */
 static const double TOLERANCE_SHARE = 1e-9;
 
+/* (w dt)^2 that the penalty on a rigid body may have with RWPNAL = 1, and at most. */
+static const double PENALTY = 0.4, LARGEST_PENALTY = 0.7;
+
 static const char *wall_keyword(const RigidWallDefinition *d)
 {
     static const char *const names[] = {"*RIGIDWALL_PLANAR", "*RIGIDWALL_GEOMETRIC_FLAT", "*RIGIDWALL_GEOMETRIC_SPHERE",
@@ -213,10 +216,50 @@ static void warn(Builder *b, const RigidWallDefinition *d, const RigidWall *wall
                         "towards its front only; turn its normal or exclude them if that is not meant",
                         wall->behind_count == wall->node_count ? "all " : "", wall->behind_count, wall->node_count,
                         wall->id);
-    if (wall->rigid_count > 0)
-        diagnostics_add(b->diagnostics, SEVERITY_NOTE, d->source, wall_keyword(d),
-                        "%d nodes of moving rigid parts pass through rigid wall %d, as in LS-DYNA with RWPNAL = 0",
-                        wall->rigid_count, wall->id);
+    if (wall->rigid_count > 0) /* a wall that stops nothing else is hardly meant so */
+        diagnostics_add(b->diagnostics, wall->rigid_count == wall->node_count ? SEVERITY_WARNING : SEVERITY_NOTE,
+                        d->source, wall_keyword(d),
+                        "%d nodes of moving rigid parts pass through rigid wall %d, as in LS-DYNA %s",
+                        wall->rigid_count, wall->id,
+                        wall->mass > 0.0 ? "with walls that have a mass"
+                                         : "with RWPNAL = 0; RWPNAL = 1 in *CONTROL_CONTACT stops them");
+}
+
+/* The wall's part of the stable penalty, and the nodes that it acts on. */
+static int push_bodies(Builder *b, RigidWall *wall, const unsigned char *named)
+{
+    const Model *m = b->model;
+    const ControlDefinitions *control = &b->definitions->control;
+    double scale = control->contact.given ? control->contact.rwpnal : 0.0;
+    if (!(scale > 0.0) || wall->mass > 0.0 || b->motion.rigid_body_count == 0) return 0;
+    wall->penalty = fmin(PENALTY * scale, LARGEST_PENALTY);
+    wall->pushed = builder_alloc(b, (size_t)m->moving_count + 1, 1);
+    if (!wall->pushed) return -1;
+    for (int n = 0; n < b->node_count; n++)
+        if (m->deck_node[n] < m->moving_count) wall->pushed[m->deck_node[n]] = named[n];
+    b->model->walls_push_bodies = true;
+    return 0;
+}
+
+/* Weights of a body's nodes: their masses (1 if they have none) over the trace of (W12). */
+static int weigh_nodes(Builder *b, RigidBody *body)
+{
+    const double *mass = b->model->mass;
+    double total = 0.0, trace = 0.0;
+    body->wall_weight = builder_alloc(b, (size_t)body->node_count + 1, sizeof *body->wall_weight);
+    if (!body->wall_weight) return -1;
+    for (int k = 0; k < body->node_count; k++) total += mass[body->node[k]];
+    for (int k = 0; k < body->node_count; k++) {
+        const double *r = body->offset + 3 * (ptrdiff_t)k;
+        double square = vector3_dot(r, r), mobility = 1.0 / body->mass;
+        body->reach = fmax(body->reach, sqrt(square));
+        for (int i = 0; i < 3; i++)
+            if (body->inertia[i] > 0.0) mobility += (square - r[i] * r[i]) / body->inertia[i];
+        body->wall_weight[k] = total > 0.0 ? mass[body->node[k]] : 1.0;
+        trace += body->wall_weight[k] * mobility;
+    }
+    for (int k = 0; k < body->node_count; k++) body->wall_weight[k] /= trace;
+    return 0;
 }
 
 int build_wall_nodes(Builder *b)
@@ -227,13 +270,13 @@ int build_wall_nodes(Builder *b)
         RigidWall *wall = &m->walls[i];
         const unsigned char *named = b->wall_node + (size_t)i * (size_t)b->node_count;
         wall->tracked = builder_alloc(b, (size_t)m->moving_count + 1, 1);
-        if (!wall->tracked) return -1;
+        if (!wall->tracked || push_bodies(b, wall, named)) return -1;
         for (int n = 0; n < b->node_count; n++)
             if (m->deck_node[n] < m->moving_count) wall->tracked[m->deck_node[n]] = named[n];
         for (int k = 0; k < b->motion.rigid_body_count; k++) {
             const RigidBody *body = &b->motion.rigid_bodies[k];
             for (int n = 0; n < body->node_count; n++) {
-                wall->rigid_count += wall->tracked[body->node[n]];
+                *(wall->pushed ? &wall->pushed_count : &wall->rigid_count) += wall->tracked[body->node[n]];
                 wall->tracked[body->node[n]] = 0;
             }
         }
@@ -242,5 +285,7 @@ int build_wall_nodes(Builder *b)
             if (constraints->hanging[h].node < m->moving_count) wall->tracked[constraints->hanging[h].node] = 0;
         warn(b, &b->definitions->walls.items[i], wall);
     }
+    for (int k = 0; m->walls_push_bodies && k < b->motion.rigid_body_count; k++)
+        if (weigh_nodes(b, &b->motion.rigid_bodies[k])) return -1;
     return 0;
 }

@@ -232,8 +232,9 @@ typedef struct Model {
     int rigid_body_count;
     RigidBody *rigid_bodies; /* moving ones, solver/rigid_body.h */
     int wall_count;
-    RigidWall *walls;      /* contact/rigid_wall.h */
-    bool has_moving_walls; /* some wall has a mass: the nodes' momentum moves it */
+    RigidWall *walls;       /* contact/rigid_wall.h */
+    bool walls_push_bodies; /* some wall acts on moving rigid bodies (RWPNAL) */
+    bool has_moving_walls;  /* some wall has a mass: the nodes' momentum moves it */
     int contact_count;
     ContactInterface *contacts; /* contact/contact.h */
     int contact_row;            /* first of node_count rows with the contact forces, one more row of each node */

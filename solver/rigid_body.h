@@ -23,7 +23,9 @@ typedef struct RigidBody {
     bool fix_translation[3], fix_rotation[3]; /* in the frame of constraint_axes (CMO, CON1, CON2) */
     double constraint_axes[9];                /* rows, fixed in space; identity for CMO = 1 */
     double velocity[3], spin[3];              /* initial, of the centre and about it */
-    int body_class;                           /* its part's gravity and damping: index into Loads.classes */
+    double reach;                             /* largest distance of a node from the centre [L] */
+    double *wall_weight; /* masses of the nodes over the trace (W12) (node_count); NULL: no wall pushes [M] */
+    int body_class;      /* its part's gravity and damping: index into Loads.classes */
 } RigidBody;
 
 /* Motion at a full step, for output. */

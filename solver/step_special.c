@@ -179,6 +179,7 @@ void step_special(Workspace *w)
     links_act(m, state, w->force);
     if (w->jets) step_jets_react(w, t);
     loads_apply_points(&m->loads, m->curves, plan->time, state->x, w->force);
+    if (m->walls_push_bodies) step_wall_bodies_push(w);
     constraints_fold_forces(&m->constraints, w->force);
     accelerate(w);
     memcpy(w->newton, state->v + first, (size_t)count * sizeof *w->newton);
@@ -188,6 +189,7 @@ void step_special(Workspace *w)
                       m->mass, w->before, state->v, NULL);
     if (m->wall_count > 0) step_walls_special(w, t);
     move_rigid_bodies(w, t);
+    if (m->walls_push_bodies) step_wall_bodies_count(w, t);
     constraints_place_hanging(&m->constraints, state->v);
     t->reaction += loads_points_work(&m->loads, m->curves, plan->time, state->x,
                                      plan->dt_before > 0.0 ? w->before : state->v, state->v, plan->dt_mean);

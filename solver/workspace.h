@@ -158,6 +158,8 @@ typedef struct Workspace {
     WallSums *wall_sums;         /* (node chunks + 1) x (wall_count) */
     unsigned char *wall_pending; /* 1: a wall with mass decides on this node (moving_count) */
     double *wall_force;          /* force of each wall on the nodes and its normal part (wall_count x 4) */
+    double *wall_body_force;     /* of walls on rigid bodies' nodes, by special node (moving - free count, x 3) */
+    double *wall_body_sum;       /* the sum of each wall and of its normal parts (wall_count x 4) */
     bool general;                /* body classes or stagnation pressure: the general node loop */
     bool closed;                 /* energies of the last cycle are in the ledger */
     double element_step;         /* stable step of the elements before TSSFAC */
@@ -210,6 +212,8 @@ void step_nodes(Workspace *w, int thread, int threads);             /* all threa
 void step_special(Workspace *w);                                    /* thread 0: special nodes */
 void step_walls_begin(Workspace *w);                                /* thread 0: where the walls are */
 void step_walls_special(Workspace *w, NodeSums *sums);              /* thread 0: special nodes; walls with mass */
+void step_wall_bodies_push(Workspace *w);                           /* thread 0: forces of walls on rigid bodies */
+void step_wall_bodies_count(Workspace *w, NodeSums *sums);          /* thread 0: their work and impulse */
 void step_walls_forces(Workspace *w);                               /* thread 0: sums for the writers */
 void step_tick(Workspace *w);                                       /* thread 0: the clock moves on */
 void step_emit(Workspace *w);                                       /* thread 0: full-step view to the hooks */
