@@ -4,12 +4,12 @@
 #define AT(member) offsetof(InitialVelocityDefinition, member)
 static const FieldSpec all1_fields[] = {
     CARD_INT("NSID", id, USED, ID_SET),        CARD_INT("NSIDEX", nsidex, USED, ID_SET),
-    CARD_INT("BOXID", boxid, USED, ID_DEFINE), CARD_INT("IRIGID", irigid, LISTED, NONE),
+    CARD_INT("BOXID", boxid, USED, ID_DEFINE), CARD_INT("IRIGID", irigid, USED, NONE),
     CARD_INT("ICID", icid, USED, ID_DEFINE),
 };
 static const FieldSpec all2_fields[] = {
     CARD_REAL("VX", v[0], USED, VELOCITY), CARD_REAL("VY", v[1], USED, VELOCITY), CARD_REAL("VZ", v[2], USED, VELOCITY),
-    CARD_REAL("VXR", w[0], LISTED, RATE),  CARD_REAL("VYR", w[1], LISTED, RATE),  CARD_REAL("VZR", w[2], LISTED, RATE),
+    CARD_REAL("VXR", w[0], USED, RATE),    CARD_REAL("VYR", w[1], USED, RATE),    CARD_REAL("VZR", w[2], USED, RATE),
 };
 static const FieldSpec all3_fields[] = {
     CARD_REAL("VXE", vx_exempt[0], USED, VELOCITY), CARD_REAL("VYE", vx_exempt[1], USED, VELOCITY),
@@ -35,7 +35,7 @@ static const FieldSpec generation2_fields[] = {
     CARD_REAL("XC", centre[0], USED, LENGTH), CARD_REAL("YC", centre[1], USED, LENGTH),
     CARD_REAL("ZC", centre[2], USED, LENGTH), CARD_REAL("NX", axis[0], USED, NONE),
     CARD_REAL("NY", axis[1], USED, NONE),     CARD_REAL("NZ", axis[2], USED, NONE),
-    CARD_INT("PHASE", phase, LISTED, NONE),   CARD_INT("IRIGID", irigid, LISTED, NONE),
+    CARD_INT("PHASE", phase, LISTED, NONE),   CARD_INT("IRIGID", irigid, USED, NONE),
 };
 #undef AT
 
@@ -71,7 +71,13 @@ static void read_all(KeywordRead *read)
         int status = keyword_card(read, 0, &card, true, &card.source);
         if (keyword_card(read, 1, &card, status == 0, NULL)) status = -1;
         if (card.nsidex > 0 && keyword_card(read, 2, &card, status == 0, NULL)) status = -1;
-        if (status == 0) store_velocity(read, &card);
+        if (status) continue;
+        if (card.irigid > 0) card.irigid = (int)keyword_scale(read, card.irigid, SCALE_ID_SET);
+        if (card.irigid == 0 && (card.w[0] != 0.0 || card.w[1] != 0.0 || card.w[2] != 0.0))
+            diagnostics_add(read->cards->diagnostics, SEVERITY_NOTE, card.source, read->spec->name,
+                            "VXR, VYR, VZR are read but not used: nodes of membranes have no rotations, and IRIGID = 0 "
+                            "leaves rigid bodies alone");
+        store_velocity(read, &card);
     }
 }
 
@@ -125,22 +131,24 @@ static const KeywordSpec specs[] = {
      .cards = all_cards,
      .card_count = 3,
      .read = read_all,
-     .remark = "NSID = 0 means all nodes. Rigid bodies take the momentum of their nodes."},
+     .remark = "NSID = 0 means all nodes. Rigid bodies take the momentum of their nodes; those with INERTIA cards keep "
+               "what these say unless IRIGID is -1 (all) or their part set: VX to VZR are then theirs."},
     {.name = "*INITIAL_VELOCITY_NODE",
      .cards = node_cards,
      .card_count = 1,
      .read = read_node,
-     .remark = "Rigid bodies take the momentum of their nodes."},
+     .remark = "Rigid bodies take the momentum of their nodes, but for those with INERTIA cards."},
     {.name = "*INITIAL_VELOCITY_RIGID_BODY",
      .cards = rigid_cards,
      .card_count = 1,
      .read = read_rigid_body,
-     .remark = ""},
+     .remark = "It goes before all others, INERTIA cards too."},
     {.name = "*INITIAL_VELOCITY_GENERATION",
      .cards = generation_cards,
      .card_count = 2,
      .read = read_generation,
-     .remark = "ID = 0 means everything. With NX = -999 the axis passes through the nodes NY and NZ."},
+     .remark = "ID = 0 means everything. With NX = -999 the axis passes through the nodes NY and NZ. Rigid bodies with "
+               "INERTIA cards keep what these say unless IRIGID = 1."},
 };
 
 const KeywordFamily keyword_family_initial = {"Initial velocities", specs, (int)(sizeof specs / sizeof *specs)};

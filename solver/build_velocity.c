@@ -128,9 +128,18 @@ static int generation_nodes(const MotionInput *input, const InitialVelocityDefin
     return status;
 }
 
-static int set_generation(const MotionInput *input, const InitialVelocityDefinition *card, double *velocity,
+/* IRIGID = 1: bodies of these nodes take their velocities in place of those of their INERTIA cards. */
+static void mark_overwritten(Motion *motion, const IndexList *nodes)
+{
+    for (size_t k = 0; k < nodes->count; k++)
+        if (motion->node_body[nodes->items[k]] >= 0)
+            motion->rigid_bodies[motion->node_body[nodes->items[k]]].overwritten = true;
+}
+
+static int set_generation(const MotionInput *input, const InitialVelocityDefinition *card, Motion *motion,
                           Diagnostics *diagnostics)
 {
+    double *velocity = motion->velocity;
     double v[3], point[3], axis[3];
     IndexList nodes = {0};
     int status = generation_nodes(input, card, &nodes, diagnostics);
@@ -143,6 +152,7 @@ static int set_generation(const MotionInput *input, const InitialVelocityDefinit
         vector3_cross(axis, arm, turning);
         for (size_t i = 0; i < 3; i++) velocity[n + i] = v[i] + card->omega * turning[i];
     }
+    if (card->irigid == 1 && status == 0) mark_overwritten(motion, &nodes);
     index_list_free(&nodes);
     return status;
 }
@@ -176,7 +186,7 @@ static void body_from_nodes(RigidBody *body, const double *x, const double *mass
     if (vector3_norm(body->spin) * reach <= 1e-12 * speed) memset(body->spin, 0, sizeof body->spin);
 }
 
-/* A body whose inertia a card gives moves as its nodes do; their masses only weigh them. */
+/* A body whose inertia a card gives and that IRIGID lets move as its nodes do; their masses only weigh them. */
 static int given_body_from_nodes(RigidBody *body, const double *x, const double *mass, const double *velocity)
 {
     RigidBody lumped = {.node_count = body->node_count, .node = body->node};
@@ -197,6 +207,72 @@ static int given_body_from_nodes(RigidBody *body, const double *x, const double 
     return status < 0 ? -1 : 0;
 }
 
+/* The first card that gives nodes a velocity; there is one where nodes have any. */
+static const InitialVelocityDefinition *nodes_card(const MotionInput *input)
+{
+    const Definitions *d = input->index->definitions;
+    size_t k = 0;
+    while (k + 1 < d->velocities.count && d->velocities.items[k].kind == VELOCITY_RIGID_BODY) k++;
+    return &d->velocities.items[k];
+}
+
+/* The velocities of an INERTIA card go before those of nodes, as in LS-DYNA with IRIGID = 0; if the two differ, that is
+ * told. */
+static int keep_card(const MotionInput *input, RigidBody *body, const double *mass, const double *velocity,
+                     Diagnostics *diagnostics)
+{
+    double v[3], spin[3], change[3], turn[3];
+    memcpy(v, body->velocity, sizeof v);
+    memcpy(spin, body->spin, sizeof spin);
+    int status = given_body_from_nodes(body, input->x, mass, velocity);
+    vector3_subtract(body->velocity, v, change);
+    vector3_subtract(body->spin, spin, turn);
+    if (vector3_norm(change) > 1e-9 * vector3_norm(v) || vector3_norm(turn) > 1e-9 * vector3_norm(spin))
+        diagnostics_add(
+            diagnostics, SEVERITY_WARNING, nodes_card(input)->source, keyword_of(nodes_card(input)),
+            "rigid body %d starts with the velocity (%g, %g, %g) and spin (%g, %g, %g) of its INERTIA card, "
+            "as in LS-DYNA, not with what *INITIAL_VELOCITY gives its nodes; set IRIGID there, or use "
+            "*INITIAL_VELOCITY_RIGID_BODY",
+            body->part_id, v[0], v[1], v[2], spin[0], spin[1], spin[2]);
+    memcpy(body->velocity, v, sizeof v);
+    memcpy(body->spin, spin, sizeof spin);
+    return status;
+}
+
+/* IRIGID of *INITIAL_VELOCITY: bodies with INERTIA cards whose centre is in the box, all (-1) or those of a part set.
+ */
+static int overwrite_bodies(const MotionInput *input, const InitialVelocityDefinition *card, Motion *motion,
+                            Diagnostics *diagnostics)
+{
+    IndexList parts = {0};
+    const BoxDefinition *box = NULL;
+    double v[3], spin[3];
+    if (card->irigid == 0) return 0;
+    if (card->irigid < -1) {
+        diagnostics_add(diagnostics, SEVERITY_ERROR, card->source, keyword_of(card),
+                        "IRIGID = %d is none of 0, -1 (all rigid bodies with INERTIA cards) or a part set",
+                        card->irigid);
+        return -1;
+    }
+    if (card->irigid > 0 &&
+        motion_find_parts(input, true, card->irigid, card->source, keyword_of(card), &parts, diagnostics))
+        return -1;
+    if (card->boxid > 0)
+        box = coordinates_resolve_box(input->index, card->boxid, card->source, keyword_of(card), diagnostics);
+    int status = to_global(input, card, card->v, v, diagnostics) || to_global(input, card, card->w, spin, diagnostics);
+    for (int b = 0; !status && b < motion->rigid_body_count; b++) {
+        RigidBody *body = &motion->rigid_bodies[b];
+        bool named = card->irigid == -1;
+        for (size_t k = 0; k < parts.count && !named; k++) named = motion->part_body[parts.items[k]] == b;
+        if (!named || !body->given || (box && !coordinates_in_box(box, body->centre))) continue;
+        memcpy(body->velocity, v, sizeof v);
+        memcpy(body->spin, spin, sizeof spin);
+        body->overwritten = true;
+    }
+    index_list_free(&parts);
+    return status ? -1 : 0;
+}
+
 static int set_rigid_body(const MotionInput *input, const InitialVelocityDefinition *card, Motion *motion,
                           Diagnostics *diagnostics)
 {
@@ -215,6 +291,7 @@ static int set_rigid_body(const MotionInput *input, const InitialVelocityDefinit
         return 0;
     }
     RigidBody *body = &motion->rigid_bodies[found];
+    body->overwritten = true;
     if (to_global(input, card, card->v, body->velocity, diagnostics)) return -1;
     return to_global(input, card, card->w, body->spin, diagnostics);
 }
@@ -253,7 +330,7 @@ static int run_cards(const MotionInput *input, Motion *motion, int kind, Diagnos
             result = set_node(input, card, motion->velocity, diagnostics);
             break;
         case VELOCITY_GENERATION:
-            result = set_generation(input, card, motion->velocity, diagnostics);
+            result = set_generation(input, card, motion, diagnostics);
             break;
         case VELOCITY_RIGID_BODY:
             result = set_rigid_body(input, card, motion, diagnostics);
@@ -275,10 +352,21 @@ int build_velocities(const MotionInput *input, const double *mass, Motion *motio
         if (!body->offset) continue;
         if (!body->given)
             body_from_nodes(body, input->x, mass, motion->velocity);
-        else if (given_body_from_nodes(body, input->x, mass, motion->velocity))
+        else if (body->overwritten && given_body_from_nodes(body, input->x, mass, motion->velocity))
             status = motion_no_memory("*INITIAL_VELOCITY", diagnostics);
     }
+    const Definitions *d = input->index->definitions;
+    for (size_t k = 0; k < d->velocities.count; k++)
+        if (d->velocities.items[k].kind == VELOCITY_ALL &&
+            overwrite_bodies(input, &d->velocities.items[k], motion, diagnostics))
+            status = -1;
     if (run_cards(input, motion, VELOCITY_RIGID_BODY, diagnostics)) status = -1;
+    for (int b = 0; b < motion->rigid_body_count; b++) {
+        RigidBody *body = &motion->rigid_bodies[b];
+        if (body->offset && body->given && !body->overwritten &&
+            keep_card(input, body, mass, motion->velocity, diagnostics))
+            status = motion_no_memory("*INITIAL_VELOCITY", diagnostics);
+    }
     place_bodies(input, motion);
     for (int n = 0; n < motion->node_count; n++) {
         if (motion->fixed[n]) memset(motion->velocity + 3 * (size_t)n, 0, 3 * sizeof *motion->velocity);

@@ -9,10 +9,11 @@
 
 /* Immutable. Built by rigid_body_build; arrays owned by the Model. */
 typedef struct RigidBody {
-    int part_id; /* user's id of the part, of the lead of merged ones, or of the nodal rigid body */
-    bool nodal;  /* of *CONSTRAINED_NODAL_RIGID_BODY: no part of that id need be there */
-    bool merged; /* of several parts, or with nodes of other parts */
-    bool given;  /* mass, centre and inertia are those of a card, not of the nodes */
+    int part_id;      /* user's id of the part, of the lead of merged ones, or of the nodal rigid body */
+    bool nodal;       /* of *CONSTRAINED_NODAL_RIGID_BODY: no part of that id need be there */
+    bool merged;      /* of several parts, or with nodes of other parts */
+    bool given;       /* mass, centre and inertia are those of a card, not of the nodes */
+    bool overwritten; /* it does not start with what that card says (IRIGID, *INITIAL_VELOCITY_RIGID_BODY) */
     int node_count;
     int32_t *node;     /* internal indices, ascending (node_count) */
     double *offset;    /* from the centre of mass, along the principal axes, at time 0 (node_count x 3) [L] */

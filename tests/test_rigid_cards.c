@@ -249,6 +249,43 @@ static void doubtful_inertia_is_told(void **state)
     }
 }
 
+/* Who decides with what a body of *PART_INERTIA starts: its card, unless IRIGID or a card of its own says otherwise. */
+static void inertia_cards_decide_the_start(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *cards;
+        double v, spin;
+        int warnings;
+    } cases[] = {
+        {"*INITIAL_VELOCITY\n0\n5,0,0\n", 1, 0.5, 1},
+        {"*INITIAL_VELOCITY\n0,0,0,-1\n5,0,0,0,0,2\n", 5, 2, 0},
+        {"*INITIAL_VELOCITY\n0,0,0,7\n5,0,0,0,0,2\n*SET_PART_LIST\n7\n2\n", 5, 2, 0},
+        {"*INITIAL_VELOCITY\n0,0,0,7\n5,0,0\n*SET_PART_LIST\n7\n1\n", 1, 0.5, 1},
+        {"*INITIAL_VELOCITY\n0,0,3,-1\n5,0,0\n*DEFINE_BOX\n3,7,8,0,1,0,1\n", 1, 0.5, 0},
+        {"*INITIAL_VELOCITY_GENERATION\n2,2,0,5\n\n", 1, 0.5, 1},
+        {"*INITIAL_VELOCITY_GENERATION\n2,2,0,5\n0,0,0,0,0,0,0,1\n", 5, 0, 0},
+        {"*INITIAL_VELOCITY_RIGID_BODY\n2,6,0,0,0,0,3\n", 6, 3, 0},
+        {"", 1, 0.5, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Scene scene = {0};
+        VerifyRun run;
+        wall_begin(&scene, 1);
+        scene_write_rigid(&scene.deck, 2, 3, 0, 0);
+        scene_print(&scene.deck,
+                    "*SECTION_SOLID\n2\n*PART_INERTIA\nbox\n2,2,2\n.5,.5,.25,20\n3,0,0,4,0,5\n1,0,0,0,0,.5\n%s",
+                    cases[i].cards);
+        wall_add_square(&scene, 9, 9, 9);
+        add_bar(&scene, 1, 2, 1, 0, 0, 0);
+        build(&run, &scene, 0);
+        near3("velocity", run.state.rigid[0].v, cases[i].v, 0, 0);
+        near3("spin", run.state.rigid[0].spin, 0, 0, cases[i].spin);
+        assert_int_equal(verify_message(&run.diagnostics, SEVERITY_WARNING, "of its INERTIA card"), cases[i].warnings);
+        verify_free(&run);
+    }
+}
+
 /* A nodal rigid body is no part: the message says what it is. */
 static void nodal_bodies_are_not_joined(void **state)
 {
@@ -271,7 +308,7 @@ int main(void)
         cmocka_unit_test(solids_have_mass_and_faces),   cmocka_unit_test(joined_parts_move_as_one),
         cmocka_unit_test(node_sets_become_bodies),      cmocka_unit_test(inertia_is_given_by_a_card),
         cmocka_unit_test(bad_bodies_are_told_together), cmocka_unit_test(doubtful_inertia_is_told),
-        cmocka_unit_test(nodal_bodies_are_not_joined),
+        cmocka_unit_test(nodal_bodies_are_not_joined),  cmocka_unit_test(inertia_cards_decide_the_start),
     };
     return cmocka_run_group_tests_name("cards of rigid bodies", tests, NULL, NULL);
 }
