@@ -5,11 +5,9 @@
 
 #include "contact/contact_erosion.h"
 #include "contact/contact_law.h"
+#include "contact/contact_skin.h"
 #include "contact/entity_loop.h"
 #include "solver/memory.h"
-
-/* Steps at the largest speed that a search shall last. */
-#define SKIN_STEPS 24.0
 
 /* Share of a step by which the step that contact reckons with may fall short of the last one (eq. C4b). */
 #define STEP_FALL 0.1
@@ -35,19 +33,7 @@ static void follow_groups(ContactLoop *loop, int thread, int threads)
     }
 }
 
-/* (w dt)^2 that elements may have, and what they and the gas leave of the limit 4 in their plane (eq. C5). */
-static double stiffest_elements(const Model *m)
-{
-    return 4.0 * m->step_scale * m->step_scale;
-}
-
-double contact_room_left(const Model *m)
-{
-    double room = 3.8 - stiffest_elements(m);
-    return room < 0.2 ? 0.2 : room;
-}
-
-/* Half of it is for the springs of friction, if there is any. */
+/* Half of the room is for the springs of friction, if there is any. */
 static double room_for_sliding(const Model *m)
 {
     bool rubs = false;
@@ -59,27 +45,10 @@ static double room_for_sliding(const Model *m)
 void contact_search(ContactLoop *loop, int thread, Team *team)
 {
     double since = clock_seconds();
-    if (thread == 0)
-        contact_fill_room(loop, loop->state->contact_searched, stiffest_elements(loop->model),
-                          0.5 * contact_room_left(loop->model));
     contact_find_pairs(loop, thread, team);
     if (thread != 0) return;
     loop->searches++;
     loop->search_seconds += clock_seconds() - since;
-}
-
-/* A skin that lasts for a number of steps, between a part of the thickness and a part of the elements. */
-static double choose_skin(const ContactLoop *loop)
-{
-    const Model *m = loop->model;
-    double thickest = 0.0, side = m->contact_count > 0 ? INFINITY : m->entity_skin,
-           skin = SKIN_STEPS * loop->fastest * loop->step.next;
-    for (int i = 0; i < m->contact_count; i++) {
-        thickest = fmax(thickest, m->contacts[i].thickest);
-        side = m->contacts[i].longest_side > 0.0 ? fmin(side, m->contacts[i].longest_side) : side;
-    }
-    double least = thickest > 0.0 ? thickest : 0.05 * side, most = side;
-    return skin < least ? least : skin > most ? (most > least ? most : least) : skin;
 }
 
 static void set_thinness(ContactLoop *loop)
@@ -118,22 +87,17 @@ void contact_prepare(ContactLoop *loop, double time, double before, double next,
         loop->step =
             (ContactStep){.time = time, .before = before, .next = next, .longer = loop->state->contact->longer};
         set_thinness(loop);
-        if (due) {
-            loop->state->contact->skin = choose_skin(loop);
-            memcpy(loop->state->contact_searched, loop->state->x, 3 * (size_t)loop->model->node_count * sizeof(double));
+        if (due) contact_skin_choose(loop);
+        if (eroded) {
+            contact_erode(loop);
+            loop->state->contact->unseen = INT32_MAX; /* new rims are sharp */
         }
-        if (eroded) contact_erode(loop);
     }
-    if (!due) {
-        contact_sharpen(loop, thread, team);
-        return;
-    }
-    contact_search(loop, thread, team);
-    if (thread != 0) return;
+    if (due) contact_search(loop, thread, team);
+    contact_renew(loop, thread, team);
+    if (thread != 0 || !due) return;
     loop->search_due = false;
     if (eroded) loop->eroded_seen = *loop->state->eroded_count;
-    loop->state->contact->started = 1;
-    loop->state->contact->unseen = 0;
 }
 
 static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run, int thread)
@@ -273,7 +237,13 @@ static double power_of_chunk(const ContactLoop *loop, int chunk, int count)
 
 void contact_follow(ContactLoop *loop, int thread, int threads, double pending)
 {
-    const double *x = loop->state->x, *v = loop->state->v, *from = loop->state->contact_searched;
+    const double *x = loop->state->x, *v = loop->state->v;
+    const ContactSkin *skin = &loop->skin;
+    DriftOrigin origin = {0};
+    for (int k = 0; k < 3; k++) {
+        origin.velocity[k] = skin->velocity[k];
+        origin.way[k] = (skin->since + loop->step.next) * skin->velocity[k];
+    }
     int first = (int)((int64_t)loop->motion_count * thread / threads),
         end = (int)((int64_t)loop->motion_count * (thread + 1) / threads);
     for (int c = first; c < end; c++) {
@@ -282,7 +252,8 @@ void contact_follow(ContactLoop *loop, int thread, int threads, double pending)
         ptrdiff_t at = 3 * (ptrdiff_t)from_node;
         ContactMotion *motion = &loop->motions[c];
         *motion = (ContactMotion){.power = power_of_chunk(loop, c, count)};
-        loop->motion_kernels->drift(motion, x + at, v + at, from + at, pending, count);
+        origin.from = skin->from + at;
+        loop->motion_kernels->drift(motion, x + at, v + at, &origin, pending, count);
     }
     follow_groups(loop, thread, threads);
     if (loop->model->blockage) share_blocked(loop, thread, threads);
@@ -315,7 +286,6 @@ static void sum_list(ContactLoop *loop, ContactRun *run, const ContactList *list
 void contact_sum(ContactLoop *loop)
 {
     double fastest = 0.0;
-    ContactDrift drift = {0};
     if (!loop->pending) return;
     loop->pending = false;
     loop->power = loop->power_after = 0.0;
@@ -327,15 +297,18 @@ void contact_sum(ContactLoop *loop)
         sum_list(loop, run, &run->edges);
     }
     if (loop->entities) entities_sum(loop);
-    for (int k = 0; k < BILLOW_MAX_THREADS; k++) loop->out_of_memory = loop->out_of_memory || loop->parts[k].failed;
+    for (int k = 0; k < BILLOW_MAX_THREADS; k++) {
+        loop->out_of_memory = loop->out_of_memory || loop->parts[k].failed;
+        loop->search_due = loop->search_due || loop->parts[k].deep;
+        loop->parts[k].deep = false;
+    }
     for (int c = 0; c < loop->motion_count; c++) {
         const ContactMotion *m = &loop->motions[c];
         loop->power_after += m->power;
         fastest = m->fastest > fastest ? m->fastest : fastest;
-        for (int k = 0; k < 3; k++) contact_drift_add(&drift, k, m->drift.low[k], m->drift.high[k]);
     }
-    loop->fastest = sqrt(fastest);
-    loop->search_due = loop->search_due || contact_drift_exceeds(&drift, loop->state->contact->skin);
+    loop->fastest = sqrt(fastest) + vector3_norm(loop->skin.velocity);
+    if (contact_skin_used_up(loop)) loop->search_due = true;
 }
 
 static int compare_memories(const void *a, const void *b)

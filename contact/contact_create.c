@@ -23,13 +23,15 @@ static int list_create(ContactList *list, int owners)
     list->start = memory_alloc(groups + 1, sizeof *list->start);
     list->next_start = memory_alloc(groups + 1, sizeof *list->next_start);
     list->deepest = memory_alloc(groups + 1, sizeof *list->deepest);
+    list->allowed = memory_alloc(groups + 1, sizeof *list->allowed);
     list->holds = memory_alloc(groups + 1, 1);
     list->memory = memory_alloc((size_t)owners * CONTACT_SLOTS + 1, sizeof *list->memory);
     list->held = memory_alloc((size_t)owners + 1, 1);
     list->partner = memory_alloc((size_t)owners * CONTACT_SLOTS + 1, sizeof *list->partner);
     list->depth = memory_alloc((size_t)owners + 1, sizeof *list->depth);
     return list->sums && list->pieces && list->passages && list->start && list->next_start && list->deepest &&
-                   list->holds && list->candidates && list->memory && list->held && list->partner && list->depth
+                   list->allowed && list->holds && list->candidates && list->memory && list->held && list->partner &&
+                   list->depth
                ? 0
                : -1;
 }
@@ -44,6 +46,7 @@ static void list_free(ContactList *list)
     memory_free(list->partner);
     memory_free(list->depth);
     memory_free(list->deepest);
+    memory_free(list->allowed);
     memory_free(list->start);
     contact_pairs_free(&list->pairs);
     memory_free(list->next_start);
@@ -80,6 +83,7 @@ void contact_free(ContactLoop *loop)
         memory_free(loop->parts[k].other);
         memory_free(loop->parts[k].pull);
         memory_free(loop->parts[k].found.item);
+        memory_free(loop->parts[k].place);
     }
     memory_free(loop->parts);
     memory_free(loop->written);
@@ -92,36 +96,23 @@ void contact_free(ContactLoop *loop)
     memory_free(loop->runs);
     memory_free(loop->resultant);
     memory_free(loop->motions);
+    memory_free(loop->skin.from);
+    memory_free(loop->skin.of);
     memory_free(loop);
 }
 
-/* Largest speeds of the chunks of nodes at the start. */
-static void fill_speeds(ContactLoop *loop)
+/* Largest speed at the start. */
+static double find_fastest(const Model *m, const State *state)
 {
-    const Model *m = loop->model;
     double fastest = 0.0;
     for (int n = 0; n < m->moving_count; n++) {
-        const double *v = loop->state->v + 3 * (ptrdiff_t)n;
-        ContactMotion *motion = &loop->motions[n / CONTACT_NODE_CHUNK];
-        motion->fastest = fmax(motion->fastest, vector3_dot(v, v));
-        fastest = fmax(fastest, motion->fastest);
+        const double *v = state->v + 3 * (ptrdiff_t)n;
+        fastest = fmax(fastest, vector3_dot(v, v));
     }
-    loop->fastest = sqrt(fastest);
+    return sqrt(fastest);
 }
 
-/* Can two nodes have come nearer by the skin since the last search? */
-static bool has_moved(const Model *m, const State *state)
-{
-    ContactDrift drift = {0};
-    for (int n = 0; n < m->moving_count; n++)
-        for (int k = 0; k < 3; k++) {
-            double way = state->x[3 * (ptrdiff_t)n + k] - state->contact_searched[3 * (ptrdiff_t)n + k];
-            contact_drift_add(&drift, k, way, way);
-        }
-    return contact_drift_exceeds(&drift, state->contact->skin);
-}
-
-/* Memories of the State go to their pairs after the first search. */
+/* Memories of the State go to their pairs. */
 static void restore_memories(ContactLoop *loop)
 {
     for (int i = 0; i < loop->model->contact_count; i++) {
@@ -251,6 +242,8 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     loop->parts = memory_alloc(BILLOW_MAX_THREADS, sizeof *loop->parts);
     loop->motion_count = (model->moving_count + CONTACT_NODE_CHUNK - 1) / CONTACT_NODE_CHUNK;
     loop->motions = memory_alloc((size_t)loop->motion_count + 1, sizeof *loop->motions);
+    loop->skin.from = memory_alloc(3 * (size_t)model->node_count, sizeof(double));
+    loop->skin.of = memory_alloc((size_t)model->node_count / CONTACT_NODE_CHUNK + 1, sizeof(double));
     loop->written = memory_alloc((size_t)model->node_count / CONTACT_NODE_CHUNK + 1, 1);
     loop->room = memory_alloc(6 * (size_t)model->node_count, sizeof(double));
     loop->around = memory_alloc((size_t)model->node_count, sizeof(double));
@@ -259,8 +252,8 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     loop->pulled = contact_list_pulled(model);
     loop->resultant = memory_alloc(3 * (size_t)model->contact_count + 1, sizeof(double));
     if (model->entity_count > 0) loop->entities = entities_create(model, state);
-    int status = loop->runs && loop->parts && loop->motions && loop->written && loop->resultant && loop->room &&
-                         loop->around && loop->firm && loop->covered && loop->pulled &&
+    int status = loop->runs && loop->parts && loop->motions && loop->skin.from && loop->skin.of && loop->written &&
+                         loop->resultant && loop->room && loop->around && loop->firm && loop->covered && loop->pulled &&
                          (model->entity_count == 0 || loop->entities)
                      ? 0
                      : -1;
@@ -273,22 +266,21 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     }
     if (!status && state->contact->started) {
         loop->restored = true;
-        contact_search(loop, 0, NULL);
+        for (int i = 0; i < model->contact_count; i++) contact_sharp_mark(loop, &loop->runs[i], 0, 1);
         loop->restored = false;
-        if (!loop->out_of_memory) restore_memories(loop);
-        loop->search_due = has_moved(model, state);
+        contact_fill_room(loop, 0, 1);
+        restore_memories(loop);
         for (int n = 0; n < model->node_count; n++) {
             loop->corner[CONTACT_ROW * (ptrdiff_t)n + 3] = state->contact_load[2 * (ptrdiff_t)n];
             loop->firm[n] = state->contact_load[2 * (ptrdiff_t)n + 1];
         }
         memset(loop->written, 1, (size_t)model->node_count / CONTACT_NODE_CHUNK + 1);
-    } else {
-        loop->search_due = true;
     }
-    if (status || loop->out_of_memory) {
+    loop->search_due = true;
+    if (status) {
         contact_free(loop);
         return NULL;
     }
-    fill_speeds(loop);
+    loop->fastest = find_fastest(model, state);
     return loop;
 }

@@ -286,5 +286,6 @@ void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *la
             meet_node(loop, run, law, i, part->other + start[k], start[k + 1] - start[k], sums, forces);
         list->deepest[group] = larger(list->deepest[group], list->depth[i]);
     }
+    if (list->deepest[group] > list->allowed[group]) part->deep = true;
     part->force_count += (size_t)sums->count;
 }

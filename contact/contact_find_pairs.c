@@ -10,30 +10,32 @@
 #include "solver/memory.h"
 #include "solver/vector3.h"
 
+/* What nodes behind a surface may sink further until a search is due, as a share of their radius. */
+#define ALLOWED 0.5
+
 /* Distance of two boxes. */
 static double boxes_apart(const ContactBox *a, const ContactBox *b)
 {
     double square = 0.0;
     for (int k = 0; k < 3; k++) {
-        double gap = fmax(fmax(a->low[k] - b->high[k], b->low[k] - a->high[k]), 0.0);
+        double gap = larger(larger(a->low[k] - b->high[k], b->low[k] - a->high[k]), 0.0);
         square += gap * gap;
     }
     return sqrt(square);
 }
 
-/* A thread's share of the boxes around groups, and of what they follow from. */
+/* A thread's share of the boxes around groups. */
 static void place_groups(ContactLoop *loop, ContactRun *run, int thread, int threads)
 {
-    const double *x = loop->state->contact_searched;
+    const double *x = loop->skin.from;
     ContactGroups *all[3] = {&run->nodes, &run->triangles, &run->lines};
     for (int k = 0; k < 3; k++) {
         int first = contact_first_of(all[k]->count, thread, threads),
             end = contact_first_of(all[k]->count, thread + 1, threads);
-        contact_groups_place(all[k], x, first, end);
+        contact_groups_place(all[k], x, loop->skin.of, first, end);
         loop->motion_kernels->follow(all[k], loop->state->v, first, end);
         contact_groups_unwatch(all[k], first, end);
     }
-    contact_sharp_planes(run, x, thread, threads);
 }
 
 /* Sorts the boxes around groups. */
@@ -43,7 +45,7 @@ static int fill_grid(ContactLoop *loop, const ContactGroups *groups)
         return -1;
     for (int h = 0; h < groups->count; h++) {
         loop->box[h] = groups->box[h];
-        contact_box_grow(&loop->box[h], groups->radius[h] + loop->state->contact->skin);
+        contact_box_grow(&loop->box[h], groups->radius[h] + groups->skin[h]);
     }
     return contact_grid_fill(&loop->grid, loop->box, groups->count);
 }
@@ -60,15 +62,15 @@ static void find_groups(ContactLoop *loop, ContactList *list, const ContactGroup
         ContactBox box = own->box[g];
         size_t first = part->pair_count;
         list->next_start[g] = (int32_t)first;
-        contact_box_grow(&box, own->radius[g]);
+        list->allowed[g] = own == all ? 0.0 : list->deepest[g] + ALLOWED * own->radius[g];
+        contact_box_grow(&box, own->radius[g] + own->skin[g] + list->allowed[g]);
         int found = contact_grid_query(&loop->grid, &box, &part->found);
-        part->failed = found < 0;
-        if (found > 0) contact_sort(part->found.item, found);
+        part->failed = found < 0 || contact_part_reserve(part, (size_t)found, all->count);
         for (int k = 0; k < found && !part->failed; k++) {
             int h = part->found.item[k];
             if ((own == all && h < g) || !contact_groups_meet(own, g, all, h)) continue;
             double slack = boxes_apart(&own->box[g], &all->box[h]) - own->radius[g] - all->radius[h];
-            part->failed = contact_part_add(part, h, loop->restored ? -INFINITY : slack) != 0;
+            if (slack <= own->skin[g] + all->skin[h] + list->allowed[g]) contact_part_add(part, h, slack);
         }
         if (part->failed) return;
         contact_pairs_remember(list, g, part, first);
@@ -83,23 +85,17 @@ static void watch(const ContactList *list, ContactGroups *own, ContactGroups *al
             own->watched[g] = all->watched[list->pairs.other[k]] = 1;
 }
 
-static void wait_for(Team *team)
-{
-    if (team) team_barrier(team);
-}
-
 /* One contact; all threads of the team, which part the work between barriers. */
 static void find_pairs(ContactLoop *loop, ContactRun *run, int thread, Team *team)
 {
-    int threads = team ? team_size(team) : 1, edges = run->contact->edge_count;
+    int threads = team_size(team), edges = run->contact->edge_count;
     place_groups(loop, run, thread, threads);
-    wait_for(team);
-    contact_sharp_mark(loop, run, thread, threads);
+    team_barrier(team);
     if (thread == 0 && fill_grid(loop, &run->triangles)) loop->out_of_memory = true;
-    wait_for(team);
+    team_barrier(team);
     if (loop->out_of_memory) return;
     find_groups(loop, &run->faces, &run->nodes, &run->triangles, thread, threads);
-    wait_for(team);
+    team_barrier(team);
     if (thread == 0) {
         if (contact_pairs_join(loop, &run->faces, threads) || (edges > 0 && fill_grid(loop, &run->lines)))
             loop->out_of_memory = true;
@@ -107,10 +103,10 @@ static void find_pairs(ContactLoop *loop, ContactRun *run, int thread, Team *tea
             watch(&run->faces, &run->nodes, &run->triangles);
     }
     if (edges == 0) return;
-    wait_for(team);
+    team_barrier(team);
     if (loop->out_of_memory) return;
     find_groups(loop, &run->edges, &run->lines, &run->lines, thread, threads);
-    wait_for(team);
+    team_barrier(team);
     if (thread != 0) return;
     if (contact_pairs_join(loop, &run->edges, threads))
         loop->out_of_memory = true;
@@ -120,9 +116,9 @@ static void find_pairs(ContactLoop *loop, ContactRun *run, int thread, Team *tea
 
 void contact_find_pairs(ContactLoop *loop, int thread, Team *team)
 {
-    wait_for(team); /* for the positions */
+    team_barrier(team); /* for the positions */
     for (int i = 0; i < loop->model->contact_count; i++) find_pairs(loop, &loop->runs[i], thread, team);
-    wait_for(team);
+    team_barrier(team);
     for (int i = 0; thread == 0 && loop->out_of_memory && i < loop->model->contact_count; i++) {
         loop->runs[i].alive = false;
         contact_pairs_forget(&loop->runs[i].faces);

@@ -23,12 +23,6 @@
 /* (w dt)^2 of a pair by itself at a share of 1, as SOFSCL gives it; 0.1 is the default (eq. C4). */
 #define CONTACT_STIFFNESS 5.0
 
-/* The C library's fmax is a call. */
-static inline double larger(double a, double b)
-{
-    return b > a ? b : a;
-}
-
 /* Coefficients of one interface in one cycle. */
 typedef struct ContactLaw {
     const Model *model;

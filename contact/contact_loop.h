@@ -19,6 +19,12 @@ enum {
     CONTACT_SLOTS = 16, /* pairs that a node or an edge can be in contact by */
 };
 
+/* The C library's fmax is a call. */
+static inline double larger(double a, double b)
+{
+    return b > a ? b : a;
+}
+
 /* One pair that touches, or will in the coming step: what its four nodes get. */
 typedef struct ContactForce {
     int32_t node[4];
@@ -76,8 +82,9 @@ typedef struct ContactList {
     int32_t *partner;        /* other item of each memory (owner_count x CONTACT_SLOTS) */
     double *depth;           /* how deep each node was behind a surface at its last look (owner_count) [L] */
     double *deepest;         /* of each group (group_count) [L] */
+    double *allowed;         /* how deep each group may be until the next search (group_count) [L] */
     int32_t *start;          /* of each group in pairs (group_count + 1) */
-    ContactGroupPairs pairs; /* ascending (start[group_count]) */
+    ContactGroupPairs pairs; /* in an order that depends on the boxes alone (start[group_count]) */
     ContactCandidates *candidates; /* of each group (group_count) */
     int32_t *next_start;           /* workspace of the search: the new list */
     ContactGroupPairs next;
@@ -179,6 +186,8 @@ typedef struct ContactAwake {
 typedef struct ContactPart {
     ContactGroupPairs pairs;
     size_t pair_count;
+    int32_t *place; /* workspace: of each group in the old list + 1, else 0 */
+    size_t place_capacity;
     ContactFound found;
     ContactForce *force;
     size_t force_count, force_capacity;
@@ -190,8 +199,17 @@ typedef struct ContactPart {
     size_t other_capacity;
     ContactLook look;
     ContactPull *pull; /* what its pairs have asked for (node_count) */
+    bool deep;         /* a group is deeper than allowed: a search is due */
     bool failed;       /* no memory */
 } ContactPart;
+
+/* Nodes at the last search, and how far each chunk of them may go until the next (contact/contact_skin.h). */
+typedef struct ContactSkin {
+    double *from;       /* positions (node_count x 3) [L] */
+    double *of;         /* of each chunk of nodes: from where the mean velocity takes it (chunks of node_count) [L] */
+    double velocity[3]; /* mean of the nodes that move [L/T] */
+    double since;       /* time of the positions from then on [T] */
+} ContactSkin;
 
 typedef struct ContactLoop {
     const Model *model;
@@ -203,7 +221,8 @@ typedef struct ContactLoop {
     ContactMotion *motions; /* (motion_count) */
     int motion_count;
     unsigned char *written; /* chunks of nodes whose rows of corner are not zero */
-    double fastest;         /* largest speed now */
+    double fastest;         /* no node is faster now */
+    ContactSkin skin;
     double power, power_after;
     bool search_due, pending;
     int64_t eroded_seen; /* shells that had eroded when the surfaces were last made; only if Model.has_erosion */
@@ -216,14 +235,14 @@ typedef struct ContactLoop {
     const NearKernels *kernels;
     const MotionKernels *motion_kernels;
     size_t box_capacity;
-    double *room; /* at the last search: (w dt)^2 that contact may add at a node in direction d is 1/(d . room d); xx yy
-                   * zz xy yz zx (node_count x 6) */
+    double *room; /* as of State.contact_formed: (w dt)^2 that contact may add at a node in direction d is 1/(d . room
+                   * d); xx yy zz xy yz zx (node_count x 6) */
     double *firm; /* load of each node by its pairs at the limit of eq. C13 (node_count) */
     unsigned char *covered;      /* nodes in contact, for leakage (node_count) */
     double *around;              /* workspace: mass of the elements at each node (node_count) */
     unsigned char *pulled;       /* of the special nodes: contact_list_pulled (moving - free count) */
     struct EntityLoop *entities; /* contact/entity_loop.h; NULL without */
-    bool restored;               /* the first search of a restart: at the place and with the edges of the last one */
+    bool restored;               /* within contact_create: edges are sharp as the State says */
     int64_t searches;
     double search_seconds;
     bool out_of_memory;
@@ -249,7 +268,7 @@ void contact_store(ContactLoop *loop); /* thread 0: memory and loads into the St
 /* What elements and gas leave of the limit 4 of (w dt)^2 in the elements' plane (eq. C12). */
 double contact_room_left(const Model *m);
 
-/* All threads: new pairs of groups at State.contact_searched. */
+/* All threads: new pairs of groups. */
 void contact_search(ContactLoop *loop, int thread, Team *team);
 
 /* Normals of a thread's share of the triangles at x. */
@@ -258,11 +277,11 @@ void contact_sharp_planes(ContactRun *run, const double *x, int thread, int thre
 /* A thread's share of the groups of edges: which are sharp by these normals; after a restart, by the State. */
 void contact_sharp_mark(ContactLoop *loop, ContactRun *run, int thread, int threads);
 
-/* Both, now and then, by all threads of the team between searches. */
-void contact_sharpen(ContactLoop *loop, int thread, Team *team);
+/* What follows the surface's shape a little late, by all threads of the team: both, and less often the room. */
+void contact_renew(ContactLoop *loop, int thread, Team *team);
 
-/* Fills room; elements, rest: (w dt)^2 that elements may have, and that they leave in their plane. */
-void contact_fill_room(ContactLoop *loop, const double *x, double elements, double rest);
+/* Fills the room of a thread's share of the nodes at State.contact_formed. */
+void contact_fill_room(ContactLoop *loop, int thread, int threads);
 
 /* Nodes, triangles and edges of the run's surface as items of groups. */
 void contact_items(ContactRun *run, ContactItems items[3]);
@@ -289,8 +308,8 @@ void contact_awake(ContactList *list);
 /* Edge pairs that have ended leave their memory to the pair beside them that the crossing has slid onto. Thread 0. */
 void contact_pass_on(ContactLoop *loop, ContactRun *run);
 
-/* New pairs of groups of all contacts at State.contact_searched, by all threads of the team; team NULL: by this thread
- * alone. Without memory out_of_memory is set and the lists are empty. */
+/* New pairs of groups of all contacts at the skin's positions, by all threads of the team. Without memory out_of_memory
+ * is set and the lists are empty. */
 void contact_find_pairs(ContactLoop *loop, int thread, Team *team);
 
 #endif

@@ -69,12 +69,13 @@ int contact_groups_create(ContactGroups *groups, const ContactItems *items, cons
         *(k < 3 ? &groups->low[k] : &groups->high[k - 3]) = groups->low[0] + (size_t)k * count;
     groups->box = memory_alloc(count, sizeof *groups->box);
     groups->radius = memory_alloc(count, sizeof *groups->radius);
+    groups->skin = memory_alloc(count, sizeof *groups->skin);
     groups->side = memory_alloc(count, 1);
     groups->body = memory_alloc(count, sizeof *groups->body);
     groups->sharp = memory_alloc(count, sizeof *groups->sharp);
     groups->watched = memory_alloc(count, 1);
     if (!groups->lanes || !groups->start || !groups->node || !groups->low[0] || !groups->box || !groups->radius ||
-        !groups->side || !groups->body || !groups->sharp || !groups->watched)
+        !groups->skin || !groups->side || !groups->body || !groups->sharp || !groups->watched)
         return -1;
     for (int g = 0; g < groups->count; g++) {
         int first = g * CONTACT_GROUP, left = items->count - first;
@@ -93,13 +94,17 @@ void contact_groups_renew(ContactGroups *groups, const ContactItems *items)
     }
 }
 
-void contact_groups_place(ContactGroups *groups, const double *x, int first, int end)
+void contact_groups_place(ContactGroups *groups, const double *x, const double *skins, int first, int end)
 {
     for (int g = first; g < end; g++) {
         ContactBox *box = &groups->box[g];
         contact_box_start(box, x + 3 * (ptrdiff_t)groups->node[groups->start[g]]);
-        for (int32_t k = groups->start[g] + 1; k < groups->start[g + 1]; k++)
-            contact_box_add(box, x + 3 * (ptrdiff_t)groups->node[k]);
+        groups->skin[g] = 0.0;
+        for (int32_t k = groups->start[g]; k < groups->start[g + 1]; k++) {
+            int32_t node = groups->node[k];
+            contact_box_add(box, x + 3 * (ptrdiff_t)node);
+            if (skins[node / CONTACT_NODE_CHUNK] > groups->skin[g]) groups->skin[g] = skins[node / CONTACT_NODE_CHUNK];
+        }
         groups->watched[g] = 1;
     }
 }
@@ -123,6 +128,7 @@ void contact_groups_free(ContactGroups *groups)
     memory_free(groups->low[0]);
     memory_free(groups->box);
     memory_free(groups->radius);
+    memory_free(groups->skin);
     memory_free(groups->side);
     memory_free(groups->body);
     memory_free(groups->sharp);

@@ -16,7 +16,7 @@ enum {
     CONTACT_MIXED = -3,      /* body of a group with items of several */
 };
 
-/* Box around displacements since the last search; zero is in it. Two nodes came nearer by no more than its diagonal. */
+/* Box around ways since the last search; zero is in it. */
 typedef struct ContactDrift {
     double low[3], high[3];
 } ContactDrift;
@@ -27,17 +27,17 @@ static inline void contact_drift_add(ContactDrift *drift, int axis, double low, 
     drift->high[axis] = high > drift->high[axis] ? high : drift->high[axis];
 }
 
-static inline bool contact_drift_exceeds(const ContactDrift *drift, double skin)
-{
-    double square = 0.0;
-    for (int k = 0; k < 3; k++) square += (drift->high[k] - drift->low[k]) * (drift->high[k] - drift->low[k]);
-    return square > skin * skin;
-}
+/* Where nodes would be and how fast if they had not drifted. */
+typedef struct DriftOrigin {
+    const double *from; /* positions at the last search (count x 3) [L] */
+    double way[3];      /* way of all of them since [L] */
+    double velocity[3]; /* of all of them [L/T] */
+} DriftOrigin;
 
 /* Sums over one chunk of nodes after the step. */
 typedef struct ContactMotion {
     double power;   /* of the contact forces on the velocities at n + 1/2 */
-    double fastest; /* largest v.v */
+    double fastest; /* largest square of a speed against the origin's */
     ContactDrift drift;
 } ContactMotion;
 
@@ -70,6 +70,7 @@ typedef struct ContactGroups {
     float *low[3], *high[3]; /* boxes around velocities now, rounded outward; low[0] owns all (count) [L/T] */
     ContactBox *box;         /* around its nodes at the last search (count) [L] */
     double *radius;          /* largest of its items (count) [L] */
+    double *skin;            /* largest of its nodes since the last search (count) [L] */
     unsigned char *side;     /* of all its items (count) */
     int32_t *body;           /* of all its items, or CONTACT_MIXED (count) */
     uint16_t *sharp;         /* lanes whose edges are sharp (count) */
@@ -82,8 +83,9 @@ int contact_groups_create(ContactGroups *groups, const ContactItems *items, cons
 /* What the items are is new, but not which there are nor their nodes. */
 void contact_groups_renew(ContactGroups *groups, const ContactItems *items);
 
-/* At a search: boxes of the groups [first, end) at positions x; all are watched, until contact_groups_unwatch. */
-void contact_groups_place(ContactGroups *groups, const double *x, int first, int end);
+/* At a search: boxes and skins of the groups [first, end) at positions x, skins by chunk of nodes; all are watched,
+ * until contact_groups_unwatch. */
+void contact_groups_place(ContactGroups *groups, const double *x, const double *skins, int first, int end);
 
 /* None of [first, end) is watched. */
 void contact_groups_unwatch(ContactGroups *groups, int first, int end);

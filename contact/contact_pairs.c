@@ -26,13 +26,20 @@ void contact_pairs_free(ContactGroupPairs *pairs)
     memory_free(pairs->kept);
 }
 
-int contact_part_add(ContactPart *part, int32_t other, double slack)
+int contact_part_reserve(ContactPart *part, size_t more, int groups)
 {
-    if (reserve(&part->pairs, part->pair_count + 1)) return -1;
+    size_t had = part->place_capacity;
+    if (memory_reserve((void **)&part->place, &part->place_capacity, (size_t)groups + 1, sizeof *part->place))
+        return -1;
+    if (part->place_capacity > had) memset(part->place + had, 0, (part->place_capacity - had) * sizeof *part->place);
+    return reserve(&part->pairs, part->pair_count + more + 1);
+}
+
+void contact_part_add(ContactPart *part, int32_t other, double slack)
+{
     part->pairs.other[part->pair_count] = other;
     part->pairs.kept[part->pair_count] = NOTHING_KEPT;
     part->pairs.slack[part->pair_count++] = contact_slack(slack);
-    return 0;
 }
 
 int contact_first_of(int count, int thread, int threads)
@@ -43,15 +50,17 @@ int contact_first_of(int count, int thread, int threads)
 /* A pair that was there before may know better how far apart its groups are, and has its candidates. */
 void contact_pairs_remember(const ContactList *list, int group, ContactPart *part, size_t first)
 {
-    int32_t old = list->start[group], end = list->start[group + 1];
+    int32_t from = list->start[group], end = list->start[group + 1];
     const ContactGroupPairs *before = &list->pairs;
+    for (int32_t old = from; old < end; old++) part->place[before->other[old]] = old + 1;
     for (size_t k = first; k < part->pair_count; k++) {
-        while (old < end && before->other[old] < part->pairs.other[k]) old++;
-        if (old == end || before->other[old] != part->pairs.other[k]) continue;
+        int32_t old = part->place[part->pairs.other[k]] - 1;
+        if (old < 0) continue;
         part->pairs.kept[k] = before->kept[old];
         if (before->kept[old].within > -FLT_MAX || before->slack[old] > part->pairs.slack[k])
             part->pairs.slack[k] = before->slack[old];
     }
+    for (int32_t old = from; old < end; old++) part->place[before->other[old]] = 0;
 }
 
 int contact_pairs_join(ContactLoop *loop, ContactList *list, int threads)

@@ -9,11 +9,13 @@
 /* First of count that a thread has. */
 int contact_first_of(int count, int thread, int threads);
 
-/* Adds one to what a thread has found. These return 0, or -1 without memory. */
-int contact_part_add(ContactPart *part, int32_t other, double slack);
+/* Room for what a group of owners has found: others of all groups at most. These return 0, or -1 without memory. */
+int contact_part_reserve(ContactPart *part, size_t more, int groups);
 
-/* Pairs of a group just found, ascending, from the part's first on: those that were there before keep what slack they
- * had. */
+/* Adds one to what a thread has found. */
+void contact_part_add(ContactPart *part, int32_t other, double slack);
+
+/* Pairs of a group just found, from the part's first on: those that were there before keep what slack they had. */
 void contact_pairs_remember(const ContactList *list, int group, ContactPart *part, size_t first);
 
 void contact_pairs_free(ContactGroupPairs *pairs);

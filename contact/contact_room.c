@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "contact/contact_loop.h"
+#include "contact/contact_pairs.h"
 #include "solver/vector3.h"
 
 /* Components xx yy zz xy yz zx of a symmetric matrix. */
@@ -33,28 +34,52 @@ static bool element_normal(const double *x, const int32_t *node, double n[3])
     return vector3_normalize(n) > 0.0;
 }
 
-void contact_fill_room(ContactLoop *loop, const double *x, double elements, double rest)
+/* (w dt)^2 that elements may have. */
+static double stiffest_elements(const Model *m)
+{
+    return 4.0 * m->step_scale * m->step_scale;
+}
+
+double contact_room_left(const Model *m)
+{
+    double room = 3.8 - stiffest_elements(m);
+    return room < 0.2 ? 0.2 : room;
+}
+
+/* Adds what an element gives to its nodes in [first, end). */
+static void add_element(ContactLoop *loop, int e, int32_t first, int32_t end)
 {
     const Model *m = loop->model;
-    double *mass = loop->around;
-    memset(loop->room, 0, 6 * (size_t)m->node_count * sizeof *loop->room);
-    memset(mass, 0, (size_t)m->node_count * sizeof *mass);
-    for (int e = 0; e < m->element_count; e++) {
-        const int32_t *node = m->element_node + 4 * (ptrdiff_t)e;
-        double n[3], weight = m->element_mass[e];
-        bool flat = element_normal(x, node, n);
-        for (int k = 0; k < (node[3] == node[2] ? 3 : 4); k++) {
-            mass[node[k]] += weight;
-            if (flat) add_square(loop->room + 6 * (ptrdiff_t)node[k], n, weight);
-        }
+    const int32_t *node = m->element_node + 4 * (ptrdiff_t)e;
+    int corners = node[3] == node[2] ? 3 : 4, own = 0;
+    double n[3], weight = m->element_mass[e];
+    for (int k = 0; k < corners; k++) own += node[k] >= first && node[k] < end;
+    if (own == 0) return;
+    bool flat = element_normal(loop->state->contact_formed, node, n);
+    for (int k = 0; k < corners; k++) {
+        if (node[k] < first || node[k] >= end) continue;
+        loop->around[node[k]] += weight;
+        if (flat) add_square(loop->room + 6 * (ptrdiff_t)node[k], n, weight);
     }
+}
+
+void contact_fill_room(ContactLoop *loop, int thread, int threads)
+{
+    const Model *m = loop->model;
+    double *mass = loop->around, elements = stiffest_elements(m), rest = 0.5 * contact_room_left(m);
+    int32_t first = contact_first_of(m->node_count, thread, threads),
+            end = contact_first_of(m->node_count, thread + 1, threads);
+    memset(loop->room + 6 * (ptrdiff_t)first, 0, 6 * (size_t)(end - first) * sizeof *loop->room);
+    memset(mass + first, 0, (size_t)(end - first) * sizeof *mass);
+    for (int e = 0; e < m->element_count; e++) add_element(loop, e, first, end);
     for (int b = 0; b < m->rigid_body_count; b++) /* what is rigid has no stiffness of its own */
         for (int i = 0; i < m->rigid_bodies[b].node_count; i++) {
             int32_t node = m->rigid_bodies[b].node[i];
+            if (node < first || node >= end) continue;
             mass[node] = 1.0;
             memcpy(loop->room + 6 * (ptrdiff_t)node, (double[6]){1.0, 1.0, 1.0}, 6 * sizeof *loop->room);
         }
-    for (int n = 0; n < m->node_count; n++) {
+    for (int32_t n = first; n < end; n++) {
         double *room = loop->room + 6 * (ptrdiff_t)n, scale = mass[n] > 0.0 ? elements / mass[n] : 0.0;
         for (int k = 0; k < 6; k++) room[k] = scale * room[k] + (k < 3 ? rest : 0.0);
         invert(room);

@@ -5,9 +5,6 @@
 #include "contact/contact_pairs.h"
 #include "solver/vector3.h"
 
-/* Cycles from look to look. */
-enum { SHARP_CYCLES = 4 };
-
 /* An edge is sharp where the surface is turned by more than this angle times thickness over longest side: the middle of
  * the edge then stands out by a tenth of the thickness. Never by more than 1.8 degrees. */
 #define SHARP_TURN 0.4
@@ -53,15 +50,4 @@ void contact_sharp_mark(ContactLoop *loop, ContactRun *run, int thread, int thre
         }
         run->lines.sharp[g] = (uint16_t)set;
     }
-}
-
-void contact_sharpen(ContactLoop *loop, int thread, Team *team)
-{
-    int threads = team_size(team);
-    if (loop->state->contact->unseen < SHARP_CYCLES) return;
-    for (int i = 0; i < loop->model->contact_count; i++)
-        contact_sharp_planes(&loop->runs[i], loop->state->x, thread, threads);
-    team_barrier(team); /* all have read unseen, too */
-    if (thread == 0) loop->state->contact->unseen = 0;
-    for (int i = 0; i < loop->model->contact_count; i++) contact_sharp_mark(loop, &loop->runs[i], thread, threads);
 }

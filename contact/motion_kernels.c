@@ -136,17 +136,25 @@ ALWAYS_INLINE Pack loose_load(const double *from)
 }
 
 /* Components x y z x y z ... as one array: those of lane l of pack p of three are of axis (p PACK_WIDTH + l) mod 3. */
-static void drift(ContactMotion *motion, const double *x, const double *v, const double *from, double pending,
+static void drift(ContactMotion *motion, const double *x, const double *v, const DriftOrigin *origin, double pending,
                   int count)
 {
     double square[3 * CONTACT_NODE_CHUNK], fastest = motion->fastest;
-    Pack low[3], high[3];
+    Pack low[3], high[3], way_of[3], velocity[3];
     int size = 3 * count, done = 0;
-    for (int p = 0; p < 3; p++) low[p] = high[p] = pack_of(0.0);
+    const double *from = origin->from;
+    for (int p = 0; p < 3; p++) {
+        low[p] = high[p] = pack_of(0.0);
+        for (int l = 0; l < PACK_WIDTH; l++) {
+            way_of[p][l] = origin->way[(p * PACK_WIDTH + l) % 3];
+            velocity[p][l] = origin->velocity[(p * PACK_WIDTH + l) % 3];
+        }
+    }
     for (; done + 3 * PACK_WIDTH <= size; done += 3 * PACK_WIDTH)
         for (int p = 0; p < 3; p++) {
             int at = done + p * PACK_WIDTH;
-            Pack u = loose_load(v + at), way = loose_load(x + at) + pending * u - loose_load(from + at);
+            Pack u = loose_load(v + at), way = loose_load(x + at) + pending * u - loose_load(from + at) - way_of[p];
+            u -= velocity[p];
             low[p] = pack_larger(-way, low[p]); /* of -way */
             high[p] = pack_larger(way, high[p]);
             *(LoosePack *)(void *)(square + at) = u * u;
@@ -155,9 +163,10 @@ static void drift(ContactMotion *motion, const double *x, const double *v, const
         for (int l = 0; l < PACK_WIDTH; l++)
             contact_drift_add(&motion->drift, (p * PACK_WIDTH + l) % 3, -low[p][l], high[p][l]);
     for (; done < size; done++) {
-        double way = x[done] + pending * v[done] - from[done];
+        double way = x[done] + pending * v[done] - from[done] - origin->way[done % 3],
+               u = v[done] - origin->velocity[done % 3];
         contact_drift_add(&motion->drift, done % 3, way, way);
-        square[done] = v[done] * v[done];
+        square[done] = u * u;
     }
     for (int n = 0; n < count; n++) {
         double speed = square[3 * n] + square[3 * n + 1] + square[3 * n + 2];

@@ -1,5 +1,5 @@
 /* What contact follows from cycle to cycle, once per instruction set: velocities of groups, the slack of their pairs,
- * the way of nodes since the last search. */
+ * the ways of nodes since the last search. */
 #ifndef BILLOW_CONTACT_MOTION_KERNELS_H
 #define BILLOW_CONTACT_MOTION_KERNELS_H
 
@@ -21,9 +21,9 @@ typedef struct MotionKernels {
     /* Up to CONTACT_GROUP pairs: takes the last step off their slack; bits of those that are awake, and how fast each
      * may close (CONTACT_GROUP numbers, aligned). */
     unsigned (*wake)(const ContactWatch *watch, const int32_t *other, float *slack, int count, float *speed);
-    /* Way x + pending v - from and v.v of count nodes into drift and fastest of *motion. */
     ContactOverlap *overlap;
-    void (*drift)(ContactMotion *motion, const double *x, const double *v, const double *from, double pending,
+    /* Ways x + pending v and speeds of count nodes against the origin's into drift and fastest of *motion. */
+    void (*drift)(ContactMotion *motion, const double *x, const double *v, const DriftOrigin *origin, double pending,
                   int count);
 } MotionKernels;
 

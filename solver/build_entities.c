@@ -172,18 +172,9 @@ static bool probe_counts(const Builder *b, const ContactEntity *entity, ptrdiff_
     return moves;
 }
 
-/* Mean side of the shells at the start. */
-static double mean_side(const Builder *b)
-{
-    double sum = 0.0;
-    for (int s = 0; s < b->shell_count; s++) sum += sqrt(b->records[s].area);
-    return b->shell_count > 0 ? sum / b->shell_count : 0.0;
-}
-
 int build_entity_nodes(Builder *b)
 {
     Model *m = b->model;
-    m->entity_skin = mean_side(b);
     for (int i = 0; i < m->entity_count; i++) {
         ContactEntity *e = &m->entities[i];
         int32_t part = id_map_find(&b->index.parts, e->part_id);

@@ -240,10 +240,8 @@ typedef struct Model {
     int contact_row;            /* first of node_count rows with the contact forces, one more row of each node */
     double *contact_inverse;    /* inverse mass that contact feels of each node (node_count); NULL without contact */
     int entity_count;
-    ContactEntity *entities;   /* contact/contact_entity.h */
-    size_t entity_probe_count; /* of all entities together */
-    double
-        entity_skin; /* mean side of the shells: how far nodes go until what is stiff at them is looked at anew [L] */
+    ContactEntity *entities;    /* contact/contact_entity.h */
+    size_t entity_probe_count;  /* of all entities together */
     size_t contact_edge_size;   /* entries of State.contact_sharp */
     size_t contact_memory_size; /* entries of State.contact_memory */
 

@@ -22,7 +22,7 @@ static size_t lay_out_contact(const Model *model, State *state, unsigned char *b
 {
     size_t nodes = (size_t)model->node_count;
     state->contact = take(base, &used, sizeof *state->contact);
-    state->contact_searched = take(base, &used, 3 * nodes * sizeof *state->contact_searched);
+    state->contact_formed = take(base, &used, 3 * nodes * sizeof *state->contact_formed);
     state->contact_load = take(base, &used, 2 * nodes * sizeof *state->contact_load);
     state->contact_sharp = take(base, &used, model->contact_edge_size);
     state->contact_memory = take(base, &used, model->contact_memory_size * sizeof *state->contact_memory);

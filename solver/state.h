@@ -11,11 +11,11 @@
 
 /* Contact, as far as it goes on from cycle to cycle; the rest is in the arrays below. */
 typedef struct ContactClock {
-    double skin;        /* of the last search: pairs farther apart than thickness + skin are not looked at [L] */
     double half;        /* contact energy up to the half step after t_n */
     double longer;      /* the step that contact reckons with, eq. C4b */
-    int64_t started;    /* 1 once there was a search */
+    int64_t started;    /* 1 once the next two have begun */
     int64_t unseen;     /* cycles since the last look at which edges are sharp */
+    int64_t looks;      /* such looks since contact_formed */
     int64_t fast, lost; /* pairs that met faster than a thickness in a step; that went too deep and were let go */
     int64_t fast_node, lost_node; /* user's ids of the first nodes, 0 none */
     double fast_time, lost_time;
@@ -91,7 +91,7 @@ typedef struct State {
                                   none); written by the element stage */
     double *seam_torn;         /* time at which each seam tore, -1: it holds (seam_count); written by seams_act */
     ContactClock *contact;     /* (1 if the model has contact) */
-    double *contact_searched;  /* positions at the last search (node_count x 3) [L] */
+    double *contact_formed;    /* positions of which the room of nodes is, eq. C12 (node_count x 3) [L] */
     double *contact_load; /* loads of each node by its contacts, eq. C6, and by those at a limit (node_count x 2) */
     unsigned char *contact_sharp;  /* edges that meet all others, at the last look (Model.contact_edge_size) */
     ContactMemory *contact_memory; /* pairs in contact, as of the last cycle written (Model.contact_memory_size) */
