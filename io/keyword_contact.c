@@ -153,10 +153,8 @@ static bool check_values(const KeywordRead *read, const ContactDefinition *c)
                       "BT = %g, DT = %g: times below 0 have meanings of their own in LS-DYNA (curves, dynamic "
                       "relaxation) that billow does not have; give times from 0 on, or leave them blank",
                       c->birth, c->death);
-    else if (c->death <= c->birth && c->birth < 1e19)
-        diagnostics_add(read->cards->diagnostics, SEVERITY_WARNING, c->card2, read->spec->name,
-                        "DT = %g is not after BT = %g: this contact never acts; correct them or remove it", c->death,
-                        c->birth);
+    else
+        keyword_check_times(read, "contact", "BT", c->birth, "DT", c->death, c->card2);
     if (c->sst < 0.0 || c->mst < 0.0 || c->sfst < 0.0 || c->sfmt < 0.0 || c->sfs < 0.0 || c->sfm < 0.0)
         keyword_error(read, c->card3, "a factor or a thickness of card 3 is negative");
     if (c->soft != 0 && c->soft != 1 && c->soft != 2)

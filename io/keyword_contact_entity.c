@@ -150,6 +150,7 @@ static void read_entity(KeywordRead *read)
         good = keyword_check_id(read, e->ssid, "SSID", e->card1) && good;
         if (!good || !take_coefficients(read, e)) continue;
         transform(read, e);
+        keyword_check_times(read, "entity", "BT", e->birth, "DT", e->death, e->card2);
         EntityDefinition *entity = KEYWORD_APPEND(read, read->definitions->entities);
         if (entity) *entity = *e;
     }

@@ -102,6 +102,7 @@ static void store_wall(KeywordRead *read, RigidWallDefinition *card)
     keyword_transform_point(read, card->edge);
     keyword_transform_vector(read, card->v);
     if (card->death == 0.0) card->death = 1e20;
+    keyword_check_times(read, "wall", "BIRTH", card->birth, "DEATH", card->death, card->source);
     RigidWallDefinition *wall = KEYWORD_APPEND(read, read->definitions->walls);
     if (wall) *wall = *card;
 }

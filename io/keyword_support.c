@@ -156,3 +156,12 @@ bool keyword_transform_turns(const KeywordRead *read)
             if (i != j && fabs(matrix[4 * i + j]) > 1e-12) return true;
     return false;
 }
+
+void keyword_check_times(const KeywordRead *read, const char *thing, const char *begin_field, double begin,
+                         const char *end_field, double end, Source source)
+{
+    if (end > begin || begin >= 1e19) return;
+    diagnostics_add(read->cards->diagnostics, SEVERITY_WARNING, source, read->cards->block->keyword,
+                    "%s = %g is not after %s = %g: this %s never acts; correct them or remove it", end_field, end,
+                    begin_field, begin, thing);
+}

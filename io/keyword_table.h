@@ -119,6 +119,10 @@ void keyword_note(const KeywordRead *read, Source source, const char *format, ..
 /* Reports an id that is not positive under the field's name; returns whether it is positive. */
 bool keyword_check_id(const KeywordRead *read, int id, const char *field, Source source);
 
+/* Warns of a thing (such as "contact") that ends, by the fields named, before it begins. */
+void keyword_check_times(const KeywordRead *read, const char *thing, const char *begin_field, double begin,
+                         const char *end_field, double end, Source source);
+
 /* Reads the title card if the option (place in spec->options) was given; title: BILLOW_TITLE_LENGTH bytes. */
 void keyword_title(KeywordRead *read, int option, char *title);
 

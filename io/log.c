@@ -62,7 +62,7 @@ void log_write_deck(Log *log, const Definitions *definitions, const Model *model
     report_write_parts(model, file);
     report_write_reference(model, file);
     report_write_airbags(model, state, file);
-    report_write_contacts(model, file);
+    report_write_contacts(model, log->diagnostics, file);
     report_write_conditions(model, file);
     report_write_walls(model, file);
     report_write_plan(model, plan, file);

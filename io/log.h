@@ -20,7 +20,7 @@
 /* The log of one run. */
 typedef struct Log {
     FILE *file;
-    const Diagnostics *diagnostics;
+    Diagnostics *diagnostics;
     size_t messages; /* how many of the diagnostics' messages are in the file */
 } Log;
 

@@ -22,7 +22,7 @@ void report_write_reference(const Model *model, FILE *stream);
 void report_write_airbags(const Model *model, const State *state, FILE *stream);
 
 /* Each contact, with nodes that are too near at the start and edges that go through surfaces. */
-void report_write_contacts(const Model *model, FILE *stream);
+void report_write_contacts(const Model *model, Diagnostics *diagnostics, FILE *stream);
 
 /* Supports, prescribed motion, loads, hanging nodes. */
 void report_write_conditions(const Model *model, FILE *stream);

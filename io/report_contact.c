@@ -134,7 +134,20 @@ static void write_entity(const Model *model, const ContactEntity *e, FILE *strea
                 inside, -deepest, model->node_id[e->node[4 * worst]]);
 }
 
-void report_write_contacts(const Model *model, FILE *stream)
+/* Layers that start crossed stay tangled: told to those who read no report, too. */
+static void warn_of_crossings(const Model *model, const ContactInterface *c, const ContactFindings *f,
+                              Diagnostics *diagnostics)
+{
+    if (f->cross_count == 0) return;
+    diagnostics_add(diagnostics, SEVERITY_WARNING, c->source, "*CONTACT",
+                    "contact %d: %d edge%s through a surface at the start, the first between nodes %d and %d at (%.6g, "
+                    "%.6g, %.6g); what is crossed stays tangled: part the layers in the mesh (billow check tells the "
+                    "pairs of shells)",
+                    c->id, f->cross_count, f->cross_count == 1 ? " goes" : "s go", model->node_id[f->cross_edge[0]],
+                    model->node_id[f->cross_edge[1]], f->cross_place[0], f->cross_place[1], f->cross_place[2]);
+}
+
+void report_write_contacts(const Model *model, Diagnostics *diagnostics, FILE *stream)
 {
     if (!model_has_contact(model)) return;
     fprintf(stream, "\nContacts\n--------\n");
@@ -148,8 +161,9 @@ void report_write_contacts(const Model *model, FILE *stream)
         if (c->static_friction > 0.0 || c->dynamic_friction > 0.0)
             fprintf(stream, ", friction %.4g", c->static_friction);
         fputc('\n', stream);
-        if (contact_inspect(model, c, model->initial, &findings, list_near, &list) == 0)
-            write_findings(model, &findings, &list, stream);
+        if (contact_inspect(model, c, model->initial, &findings, list_near, &list)) continue;
+        write_findings(model, &findings, &list, stream);
+        warn_of_crossings(model, c, &findings, diagnostics);
     }
     for (int i = 0; i < model->entity_count; i++) write_entity(model, &model->entities[i], stream);
 }

@@ -19,7 +19,7 @@ static void print_report(Accepted *accepted, const char *deck)
     report_write_parts(model, stdout);
     report_write_reference(model, stdout);
     report_write_airbags(model, &accepted->state, stdout);
-    report_write_contacts(model, stdout);
+    report_write_contacts(model, &accepted->diagnostics, stdout);
     report_write_conditions(model, stdout);
     report_write_walls(model, stdout);
     if (report_write_crossings(model, stdout) || report_write_rigid_shapes(model, stdout))

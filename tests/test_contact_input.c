@@ -238,11 +238,31 @@ static void test_inspection(void **state)
     verify_free(&run);
 }
 
+/* Sheets that start crossed are warned of where users look: by check, and by a run before it begins. */
+static void test_crossed_sheets(void **state)
+{
+    (void)state;
+    static Program program;
+    static const char cards[] = "*NODE\n11,.5,.3,-.4\n12,.5,.7,-.4\n13,.5,.7,.4\n14,.5,.3,.4\n"
+                                "*ELEMENT_SHELL\n11,1,11,12,13,14\n"
+                                "*CONTACT_AUTOMATIC_SINGLE_SURFACE_ID\n5\n1,0,3\n\n\n";
+    char text[4000];
+    program_open(&program);
+    int length = snprintf(text, sizeof text, "%s%s*END\n", model_head, cards);
+    program_write(&program, "crossed.k", text, (size_t)length);
+    assert_int_equal(program_run(&program, "check crossed.k"), BILLOW_EXIT_NORMAL);
+    assert_non_null(strstr(program.out, "warning: *CONTACT"));
+    assert_non_null(strstr(program.out, "contact 5: "));
+    assert_int_equal(program_run(&program, "run crossed.k -q"), BILLOW_EXIT_NORMAL);
+    assert_non_null(strstr(program.err, "stays tangled"));
+    program_close(&program);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cards),          cmocka_unit_test(test_wrong_fields),
-                                       cmocka_unit_test(test_wrong_surfaces), cmocka_unit_test(test_one_list),
-                                       cmocka_unit_test(test_inspection),     cmocka_unit_test(test_times_and_penmax),
-                                       cmocka_unit_test(test_families),       cmocka_unit_test(test_cut_thickness)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cards),    cmocka_unit_test(test_wrong_fields),  cmocka_unit_test(test_wrong_surfaces),
+        cmocka_unit_test(test_one_list), cmocka_unit_test(test_inspection),    cmocka_unit_test(test_times_and_penmax),
+        cmocka_unit_test(test_families), cmocka_unit_test(test_cut_thickness), cmocka_unit_test(test_crossed_sheets)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,6 +68,17 @@ static void nodes_are_selected(void **state)
     }
 }
 
+/* A wall that ends before it begins is warned of with its line. */
+static void times_are_in_order(void **state)
+{
+    (void)state;
+    VerifyRun run;
+    build(&run, "*RIGIDWALL_PLANAR\n0,0,0,0,2,1\n0,0,0,0,0,1\n*RIGIDWALL_PLANAR\n0,0,0,0,2\n0,0,0,0,0,1\n", 0);
+    assert_int_equal(verify_message(&run.diagnostics, SEVERITY_WARNING, "DEATH = 1 is not after BIRTH = 2"), 1);
+    assert_int_equal(run.diagnostics.warnings, 1);
+    verify_free(&run);
+}
+
 static void options_come_in_any_order(void **state)
 {
     (void)state;
@@ -158,9 +169,8 @@ static void forces_are_written(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nodes_are_selected),
-        cmocka_unit_test(options_come_in_any_order),
-        cmocka_unit_test(bad_cards_are_told_together),
+        cmocka_unit_test(nodes_are_selected),        cmocka_unit_test(times_are_in_order),
+        cmocka_unit_test(options_come_in_any_order), cmocka_unit_test(bad_cards_are_told_together),
         cmocka_unit_test(forces_are_written),
     };
     return cmocka_run_group_tests_name("rigid wall cards", tests, NULL, NULL);
