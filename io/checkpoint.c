@@ -142,6 +142,7 @@ static uint64_t hash_conditions(uint64_t hash, const Model *model)
     hash = hash_int(hash, model->segment_load_count);
     hash = hash_int(hash, model->loads.node_load_count);
     hash = hash_int(hash, model->loads.rigid_load_count);
+    hash = hash_int(hash, model->walls_block);
     hash = hash_int(hash, model->constraints.support_count);
     hash = hash_int(hash, model->constraints.motion_count);
     hash = hash_int(hash, model->constraints.hanging_count);

@@ -259,7 +259,9 @@ static int write_cell_data(VtkHdf *grid, const Model *model, const State *state,
             }
             thickness[e] = (float)result.thickness;
             eroded[e] = model->has_erosion && state->eroded[model->element_slot[first + e]] ? 1.0f : 0.0f;
-            share[e] = eroded[e] > 0.0f ? 0.0f : contact_share(model, contact, first + e);
+            share[e] = eroded[e] > 0.0f     ? 0.0f
+                       : model->walls_block ? (float)state->contact_share[first + e]
+                                            : contact_share(model, contact, first + e);
         }
         if (write_piece(grid, DATA_STRESS, first, count, stress) ||
             write_piece(grid, DATA_STRAIN, first, count, strain) ||

@@ -139,6 +139,19 @@ static void builder_free(Builder *b)
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
 }
 
+/* --walls-block: covers are followed even where no leakage asks for them, for the contact field. */
+static void block_by_walls(Builder *b)
+{
+    Model *m = b->model;
+    if (!b->options->walls_block) return;
+    m->walls_block = m->wall_count > 0;
+    if (!m->walls_block || !m->blockage)
+        diagnostics_add(
+            b->diagnostics, SEVERITY_NOTE, BILLOW_NO_SOURCE, NULL, "--walls-block has no effect on the gas: %s",
+            m->walls_block ? "no leakage or vent asks for blockage (even OPT, A23 < 0)" : "there are no rigid walls");
+    m->blockage |= m->walls_block;
+}
+
 /* Each stage needs those before it; errors inside a stage are all collected. */
 static int run_stages(Builder *b)
 {
@@ -181,6 +194,7 @@ static int run_stages(Builder *b)
         return -1;
     set_origin(b);
     b->model->caps_push_rim = b->options->caps_push_rim;
+    block_by_walls(b);
     if (take_motion(b)) return -1;
     if (build_seam_nodes(b) || build_tie_nodes(b)) return -1;
     return build_sensors(b);

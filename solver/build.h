@@ -11,6 +11,7 @@ typedef struct BuildOptions {
     bool one_point_quads;       /* one-point quads with hourglass control in place of 2 x 2 points */
     bool caps_push_rim;         /* hole caps give their pressure force to the rim */
     const char *sensor_library; /* shared library with the user's sensor (RBID > 0), NULL none */
+    bool walls_block;           /* nodes on rigid walls count as covered, like those in contact */
     bool relax;                 /* --relax: static equilibrium before the run */
     bool relaxation_phase;      /* the model of that phase: curves with SIDR = 1 or 2 act, those with 0 do not */
     bool all_explicit;          /* no small elements are integrated implicitly */

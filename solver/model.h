@@ -233,6 +233,7 @@ typedef struct Model {
     RigidBody *rigid_bodies; /* moving ones, solver/rigid_body.h */
     int wall_count;
     RigidWall *walls;       /* contact/rigid_wall.h */
+    bool walls_block;       /* nodes on rigid walls count as covered */
     bool walls_push_bodies; /* some wall acts on moving rigid bodies (RWPNAL) */
     bool has_moving_walls;  /* some wall has a mass: the nodes' momentum moves it */
     int contact_count;

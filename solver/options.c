@@ -152,6 +152,13 @@ static int set_caps_push(Options *options, const char *value)
     return 0;
 }
 
+static int set_walls_block(Options *options, const char *value)
+{
+    (void)value;
+    options->build.walls_block = true;
+    return 0;
+}
+
 static const OptionName option_names[] = {
     {"-o", "--output", true, false, read_directory},
     {"-j", "--threads", true, true, read_threads},
@@ -160,6 +167,7 @@ static const OptionName option_names[] = {
     {"-q", "--quiet", false, false, set_quiet},
     {NULL, "--one-point-quads", false, true, set_one_point},
     {NULL, "--caps-push-rim", false, true, set_caps_push},
+    {NULL, "--walls-block", false, true, set_walls_block},
     {NULL, "--all-explicit", false, true, set_all_explicit},
     {NULL, "--relax", false, true, set_relax},
     {NULL, "--energy-error-limit", true, true, read_energy_limit},

@@ -20,6 +20,7 @@ static const char run_help[] =
     "      --one-point-quads   4-node elements with one point and hourglass control: faster, less accurate\n"
     "      --all-explicit      the smallest elements set the step, none is integrated implicitly\n"
     "      --caps-push-rim     flat caps over the bag's holes give their pressure force to the rim\n"
+    "      --walls-block       fabric on rigid walls is blocked, as fabric in contact is\n"
     "      --relax             starts from the static equilibrium under the loads and bag pressures of time 0\n"
     "      --energy-error-limit X   stop when the energy balance is lost by more than this share (0.1)\n"
     "      --sensor-library FILE    shared library with the sensor function of bags with RBID > 0; its code\n"
@@ -57,7 +58,7 @@ void options_print_help(Command command, FILE *stream)
         fputs(run_help, stream);
     } else if (command == COMMAND_CHECK_HELP) {
         fputs("usage: billow check DECK [--end-time T] [--one-point-quads] [--caps-push-rim]\n"
-              "                         [--all-explicit] [--relax] [--sensor-library FILE]\n"
+              "                         [--walls-block] [--all-explicit] [--relax] [--sensor-library FILE]\n"
               "\n"
               "Reads and validates a deck and reports parts, masses, bags with volume, holes and gas, the stable\n"
               "time step with its element, and every field that is read but not used. Runs no steps, writes no file.\n"

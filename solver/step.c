@@ -262,9 +262,10 @@ static void loop(void *context, int thread, Team *team)
         if (w->jets) step_jets_count(w, thread, team);
         times->waiting += lap(&since);
         if (w->contact) contact_follow(w->contact, thread, threads, w->plan.emit ? w->plan.dt_next : 0.0);
+        if (w->model->walls_block) step_walls_block(w, thread, threads);
         times->contact += lap(&since);
         if (!w->plan.emit) continue;
-        if (w->contact) team_barrier(team);
+        if (w->contact || w->model->walls_block) team_barrier(team);
         if (thread == 0) step_emit(w);
         team_barrier(team);
         times->output += lap(&since);

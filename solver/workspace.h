@@ -214,6 +214,7 @@ void step_walls_begin(Workspace *w);                                /* thread 0:
 void step_walls_special(Workspace *w, NodeSums *sums);              /* thread 0: special nodes; walls with mass */
 void step_wall_bodies_push(Workspace *w);                           /* thread 0: forces of walls on rigid bodies */
 void step_wall_bodies_count(Workspace *w, NodeSums *sums);          /* thread 0: their work and impulse */
+void step_walls_block(Workspace *w, int thread, int threads);       /* all: covers of elements, walls included */
 void step_walls_forces(Workspace *w);                               /* thread 0: sums for the writers */
 void step_tick(Workspace *w);                                       /* thread 0: the clock moves on */
 void step_emit(Workspace *w);                                       /* thread 0: full-step view to the hooks */

@@ -29,7 +29,7 @@ static void add_bag(SceneMesh *mesh)
 }
 
 /* The bag with 5 kPa over the plate; contact: text of the keyword that keeps them apart. */
-static void bag_run(VerifyRun *run, int opt, const char *contact)
+static void bag_run(VerifyRun *run, int opt, const char *contact, bool walls_block)
 {
     Scene scene = {0};
     SceneText *deck = &scene.deck;
@@ -54,7 +54,7 @@ static void bag_run(VerifyRun *run, int opt, const char *contact)
     scene_add_sheet(&scene.mesh, 2, SCENE_QUADS, 3, 3, end + 0.02, side + 0.04, -0.02, -0.02, -0.9 * thickness);
     scene_print(deck, "%s", contact);
     scene_end(deck, &scene.mesh);
-    verify_scene(run, &scene, &(VerifyOptions){.every = 1});
+    verify_scene(run, &scene, &(VerifyOptions){.every = 1, .walls_block = walls_block});
 }
 
 static double blocked_share(const VerifyRun *run)
@@ -75,11 +75,11 @@ static void plate_blocks(void **state)
     (void)state;
     const double share = (COVERED + 0.5) / CELLS;
     VerifyRun free, run;
-    bag_run(&free, 1, CONTACT("AUTOMATIC_NODES_TO_SURFACE"));
+    bag_run(&free, 1, CONTACT("AUTOMATIC_NODES_TO_SURFACE"), false);
     verify_near("OPT 1 sees no contact", blocked_share(&free), 0, 0);
     double whole = free.state.gas[0].mass_flow_out_porosity;
     assert_true(whole > 0.0);
-    bag_run(&run, 2, CONTACT("AUTOMATIC_NODES_TO_SURFACE"));
+    bag_run(&run, 2, CONTACT("AUTOMATIC_NODES_TO_SURFACE"), false);
     verify_close("blocked share of the bottom", blocked_share(&run), share, 1e-4);
     verify_close("leakage left", run.state.gas[0].mass_flow_out_porosity / whole, 1 - share, 1e-3);
     verify_free(&run);
@@ -92,7 +92,7 @@ static void both_ways(void **state)
 {
     (void)state;
     VerifyRun run;
-    bag_run(&run, 2, CONTACT("AUTOMATIC_SURFACE_TO_SURFACE"));
+    bag_run(&run, 2, CONTACT("AUTOMATIC_SURFACE_TO_SURFACE"), false);
     verify_between("blocked share of the bottom", blocked_share(&run), (COVERED + 0.6) / CELLS,
                    (COVERED + 1.0) / CELLS);
     verify_free(&run);
@@ -103,15 +103,35 @@ static void wall_does_not(void **state)
 {
     (void)state;
     VerifyRun run;
-    bag_run(&run, 2, "*RIGIDWALL_PLANAR\n0\n0,0,0,0,0,1\n");
+    bag_run(&run, 2, "*RIGIDWALL_PLANAR\n0\n0,0,0,0,0,1\n", false);
     verify_near("blocked share of the bottom", blocked_share(&run), 0, 0);
     assert_true(run.state.gas[0].mass_flow_out_porosity > 0.0);
     verify_free(&run);
 }
 
+/* With --walls-block it does: half a finite wall covers half of the bottom, and the other half leaks. */
+static void wall_does_by_option(void **state)
+{
+    (void)state;
+    VerifyRun free, run, both;
+    const char *wall = "*RIGIDWALL_PLANAR_FINITE\n0\n-0.01,-0.01,0,-0.01,-0.01,1\n1,-0.01,0,0.055,0.2\n";
+    char text[400];
+    bag_run(&free, 2, wall, false);
+    bag_run(&run, 2, wall, true);
+    verify_close("blocked share of the bottom", blocked_share(&run), (COVERED + 0.5) / CELLS, 1e-4);
+    verify_close("leakage left", run.state.gas[0].mass_flow_out_porosity / free.state.gas[0].mass_flow_out_porosity,
+                 1 - (COVERED + 0.5) / CELLS, 1e-3);
+    snprintf(text, sizeof text, "%s" CONTACT("AUTOMATIC_NODES_TO_SURFACE"), wall);
+    bag_run(&both, 2, text, true); /* what both cover counts once */
+    verify_close("wall and plate", blocked_share(&both), (COVERED + 0.5) / CELLS, 1e-4);
+    verify_free(&free);
+    verify_free(&run);
+    verify_free(&both);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(plate_blocks), cmocka_unit_test(both_ways),
-                                       cmocka_unit_test(wall_does_not)};
+                                       cmocka_unit_test(wall_does_not), cmocka_unit_test(wall_does_by_option)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,10 +35,11 @@ static void test_run_spelling(void **state)
     assert_false(options.quiet);
     assert_true(options.build.end_time == 0.0);
 
-    assert_int_equal(parse("run -o out -j 4 b.k --end-time 2.5e-2 --restart out/r --quiet --one-point-quads "
-                           "--caps-push-rim --all-explicit --energy-error-limit 0.3 --sensor-library ./s.so",
-                           &options),
-                     0);
+    assert_int_equal(
+        parse("run -o out -j 4 b.k --end-time 2.5e-2 --restart out/r --quiet --one-point-quads "
+              "--caps-push-rim --walls-block --all-explicit --energy-error-limit 0.3 --sensor-library ./s.so",
+              &options),
+        0);
     assert_string_equal(options.build.sensor_library, "./s.so");
     assert_string_equal(options.directory, "out");
     assert_int_equal(options.threads, 4);
@@ -48,6 +49,7 @@ static void test_run_spelling(void **state)
     assert_true(options.quiet);
     assert_true(options.build.one_point_quads);
     assert_true(options.build.caps_push_rim);
+    assert_true(options.build.walls_block);
     assert_true(options.build.all_explicit);
     assert_true(options.build.energy_error_limit == 0.3);
 

@@ -18,6 +18,7 @@ int verify_build(VerifyRun *run, const char *text, size_t length, const VerifyOp
     int read = deck_read_text("scene.k", text, length, &run->definitions, &run->diagnostics);
     BuildOptions build = {.one_point_quads = options->one_point,
                           .caps_push_rim = options->caps_push_rim,
+                          .walls_block = options->walls_block,
                           .all_explicit = options->all_explicit,
                           .energy_error_limit = options->energy_limit};
     if (model_build(&run->definitions, &build, &run->model, &run->diagnostics) || read) return -1;

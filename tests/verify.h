@@ -33,6 +33,7 @@ typedef struct VerifyOptions {
     double stop_time; /* > 0: stop at the first cycle at or after this time */
     bool one_point;   /* one-point quads */
     bool caps_push_rim;
+    bool walls_block;    /* nodes on rigid walls count as covered */
     bool all_explicit;   /* no small elements are integrated implicitly */
     double energy_limit; /* > 0: the run stops beyond this share of energy error in place of the default */
     VerifyProbe *probe;
