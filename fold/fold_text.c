@@ -54,6 +54,8 @@ static void read_length(const Statement *s, double *value)
 {
     if (s->count != 2)
         COMPLAIN(s, "%s takes one number", s->word[0]);
+    else if (*value > 0.0)
+        COMPLAIN(s, "%s is given a second time; keep one", s->word[0]);
     else
         read_positive(s, 1, "the value", value);
 }
@@ -186,7 +188,7 @@ static void check_complete(const FoldPlan *plan, Statement *s)
 
 int fold_read(const char *path, FoldPlan *plan, Diagnostics *diagnostics)
 {
-    *plan = (FoldPlan){.limit = 0.2};
+    *plan = (FoldPlan){0};
     Statement s = {.source = {diagnostics_add_file(diagnostics, path), 0}, .diagnostics = diagnostics};
     DeckFile file = {0};
     bool no_memory = false;
@@ -209,6 +211,7 @@ int fold_read(const char *path, FoldPlan *plan, Diagnostics *diagnostics)
         diagnostics_add(diagnostics, SEVERITY_ENVIRONMENT, BILLOW_NO_SOURCE, NULL, "not enough memory");
     else
         check_complete(plan, &s);
+    if (!(plan->limit > 0.0)) plan->limit = 0.2;
     return diagnostics->errors || diagnostics->environment ? -1 : 0;
 }
 

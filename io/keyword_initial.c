@@ -131,8 +131,9 @@ static const KeywordSpec specs[] = {
      .cards = all_cards,
      .card_count = 3,
      .read = read_all,
-     .remark = "NSID = 0 means all nodes. Rigid bodies take the momentum of their nodes; those with INERTIA cards keep "
-               "what these say unless IRIGID is -1 (all) or their part set: VX to VZR are then theirs."},
+     .remark =
+         "NSID = 0 means all nodes. Rigid bodies take the momentum of their nodes; those with INERTIA cards keep "
+         "what these say unless IRIGID is -1 (all in the box), -2 (all) or their part set: VX to VZR are then theirs."},
     {.name = "*INITIAL_VELOCITY_NODE",
      .cards = node_cards,
      .card_count = 1,
@@ -148,7 +149,7 @@ static const KeywordSpec specs[] = {
      .card_count = 2,
      .read = read_generation,
      .remark = "ID = 0 means everything. With NX = -999 the axis passes through the nodes NY and NZ. Rigid bodies with "
-               "INERTIA cards keep what these say unless IRIGID = 1."},
+               "INERTIA cards keep what these say unless IRIGID = 1 (not with STYP = 3)."},
 };
 
 const KeywordFamily keyword_family_initial = {"Initial velocities", specs, (int)(sizeof specs / sizeof *specs)};

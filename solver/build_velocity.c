@@ -239,8 +239,8 @@ static int keep_card(const MotionInput *input, RigidBody *body, const double *ma
     return status;
 }
 
-/* IRIGID of *INITIAL_VELOCITY: bodies with INERTIA cards whose centre is in the box, all (-1) or those of a part set.
- */
+/* IRIGID of *INITIAL_VELOCITY: bodies with INERTIA cards whose centre is in the box (-1), all (-2), or those of a part
+ * set. */
 static int overwrite_bodies(const MotionInput *input, const InitialVelocityDefinition *card, Motion *motion,
                             Diagnostics *diagnostics)
 {
@@ -248,21 +248,23 @@ static int overwrite_bodies(const MotionInput *input, const InitialVelocityDefin
     const BoxDefinition *box = NULL;
     double v[3], spin[3];
     if (card->irigid == 0) return 0;
-    if (card->irigid < -1) {
-        diagnostics_add(diagnostics, SEVERITY_ERROR, card->source, keyword_of(card),
-                        "IRIGID = %d is none of 0, -1 (all rigid bodies with INERTIA cards) or a part set",
-                        card->irigid);
+    if (card->irigid < -2) {
+        diagnostics_add(
+            diagnostics, SEVERITY_ERROR, card->source, keyword_of(card),
+            "IRIGID = %d is none of 0, -1 (all rigid bodies with INERTIA cards in the box), -2 (all) or a part "
+            "set",
+            card->irigid);
         return -1;
     }
     if (card->irigid > 0 &&
         motion_find_parts(input, true, card->irigid, card->source, keyword_of(card), &parts, diagnostics))
         return -1;
-    if (card->boxid > 0)
+    if (card->boxid > 0 && card->irigid != -2)
         box = coordinates_resolve_box(input->index, card->boxid, card->source, keyword_of(card), diagnostics);
     int status = to_global(input, card, card->v, v, diagnostics) || to_global(input, card, card->w, spin, diagnostics);
     for (int b = 0; !status && b < motion->rigid_body_count; b++) {
         RigidBody *body = &motion->rigid_bodies[b];
-        bool named = card->irigid == -1;
+        bool named = card->irigid < 0;
         for (size_t k = 0; k < parts.count && !named; k++) named = motion->part_body[parts.items[k]] == b;
         if (!named || !body->given || (box && !coordinates_in_box(box, body->centre))) continue;
         memcpy(body->velocity, v, sizeof v);

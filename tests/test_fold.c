@@ -330,6 +330,8 @@ static void errors_come_with_file_and_line(void **state)
     }
     assert_int_equal(run_folds(program, "gap 0.001\nupper 1\nthin 0.14 0 1 0 up\n"), 2);
     assert_non_null(strstr(program->err, "'lower PART ...' is missing"));
+    assert_int_equal(run_folds(program, "gap 0.001\nupper 1\nlower 2 3\ngap 0.002\nthin 0.14 0 1 0 up\n"), 2);
+    assert_non_null(strstr(program->err, "folds.txt:4: error: gap is given a second time"));
     assert_int_equal(run_folds(program, "gap 0.001\nupper 1\nlower 2 9\nthin 0.14 0 1 0 up\n"), 2);
     assert_non_null(strstr(program->err, "lower: flat.k has no shells of part 9"));
     assert_int_equal(run_folds(program, "gap 0.001\nupper 1\nlower 2\nthin 0.14 0 1 0 up\n"), 2);

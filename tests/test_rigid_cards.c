@@ -263,6 +263,7 @@ static void inertia_cards_decide_the_start(void **state)
         {"*INITIAL_VELOCITY\n0,0,0,7\n5,0,0,0,0,2\n*SET_PART_LIST\n7\n2\n", 5, 2, 0},
         {"*INITIAL_VELOCITY\n0,0,0,7\n5,0,0\n*SET_PART_LIST\n7\n1\n", 1, 0.5, 1},
         {"*INITIAL_VELOCITY\n0,0,3,-1\n5,0,0\n*DEFINE_BOX\n3,7,8,0,1,0,1\n", 1, 0.5, 0},
+        {"*INITIAL_VELOCITY\n0,0,3,-2\n5,0,0,0,0,2\n*DEFINE_BOX\n3,7,8,0,1,0,1\n", 5, 2, 0},
         {"*INITIAL_VELOCITY_GENERATION\n2,2,0,5\n\n", 1, 0.5, 1},
         {"*INITIAL_VELOCITY_GENERATION\n2,2,0,5\n0,0,0,0,0,0,0,1\n", 5, 0, 0},
         {"*INITIAL_VELOCITY_RIGID_BODY\n2,6,0,0,0,0,3\n", 6, 3, 0},
