@@ -205,6 +205,19 @@ int build_walls(Builder *b)
     return status;
 }
 
+/* Moving rigid parts that the wall does not see: a note, but a warning where more is asked for than billow has, or
+ * where the wall stops nothing else, which is hardly meant so. */
+static void warn_of_passing(Builder *b, const RigidWallDefinition *d, const RigidWall *wall)
+{
+    const ControlDefinitions *control = &b->definitions->control;
+    const bool asked = control->contact.given && control->contact.rwpnal > 0.0;
+    diagnostics_add(b->diagnostics, asked || wall->rigid_count == wall->node_count ? SEVERITY_WARNING : SEVERITY_NOTE,
+                    d->source, wall_keyword(d), "%d nodes of moving rigid parts pass through rigid wall %d%s",
+                    wall->rigid_count, wall->id,
+                    asked ? ": RWPNAL acts on walls without mass only (no MOVING)"
+                          : ", as in LS-DYNA with RWPNAL = 0; RWPNAL = 1 in *CONTROL_CONTACT stops them");
+}
+
 static void warn(Builder *b, const RigidWallDefinition *d, const RigidWall *wall)
 {
     if (wall->node_count == 0)
@@ -216,13 +229,7 @@ static void warn(Builder *b, const RigidWallDefinition *d, const RigidWall *wall
                         "towards its front only; turn its normal or exclude them if that is not meant",
                         wall->behind_count == wall->node_count ? "all " : "", wall->behind_count, wall->node_count,
                         wall->id);
-    if (wall->rigid_count > 0) /* a wall that stops nothing else is hardly meant so */
-        diagnostics_add(b->diagnostics, wall->rigid_count == wall->node_count ? SEVERITY_WARNING : SEVERITY_NOTE,
-                        d->source, wall_keyword(d),
-                        "%d nodes of moving rigid parts pass through rigid wall %d, as in LS-DYNA %s",
-                        wall->rigid_count, wall->id,
-                        wall->mass > 0.0 ? "with walls that have a mass"
-                                         : "with RWPNAL = 0; RWPNAL = 1 in *CONTROL_CONTACT stops them");
+    if (wall->rigid_count > 0) warn_of_passing(b, d, wall);
 }
 
 /* The wall's part of the stable penalty, and the nodes that it acts on. */

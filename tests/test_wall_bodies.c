@@ -70,8 +70,9 @@ static void what_passes(void **state)
     static const struct {
         const char *options, *card;
         double rwpnal, z;
-        bool note;
-    } cases[] = {{"", "", 0, 0.5, true}, {"_MOVING", "1e6,0\n", 1, 0.5, true}, {"", "", 1, -1.5, false}};
+        bool note, warning;
+    } cases[] = {
+        {"", "", 0, 0.5, true, false}, {"_MOVING", "1e6,0\n", 1, 0.5, true, true}, {"", "", 1, -1.5, false, false}};
     for (int i = 0; i < 3; i++) {
         Scene scene = {0};
         VerifyRun run;
@@ -84,6 +85,8 @@ static void what_passes(void **state)
         verify_close("speed after", body(&run)->v[2], -2, 1e-12);
         assert_int_equal(verify_message(&run.diagnostics, SEVERITY_NOTE, "8 nodes of moving rigid parts pass"),
                          cases[i].note);
+        assert_int_equal(verify_message(&run.diagnostics, SEVERITY_WARNING, "walls without mass only"),
+                         cases[i].warning);
         verify_free(&run);
     }
 }
