@@ -292,6 +292,10 @@ static void read_control_contact(KeywordRead *read)
     UnusedCard unused;
     ControlCard4 card4 = {0};
     void *records[] = {control, &unused, &unused, &card4, &unused, &unused};
+    if (control->contact.given)
+        keyword_warning(read, read->cards->block->source,
+                        "this keyword is given again; the one before (line %d) no longer counts",
+                        control->contact.source.line);
     int status = keyword_card(read, 0, control, true, &control->contact.source);
     for (int i = 1; i < read->spec->card_count && status == 0; i++)
         if (keyword_card(read, i, records[i], false, NULL) && card_left(read->cards)) status = -1;

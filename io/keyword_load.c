@@ -140,6 +140,10 @@ static void read_load_body(KeywordRead *read)
     BodyLoadDefinition card = {.axis = read->spec->name[strlen("*LOAD_BODY_")] - 'X'};
     if (keyword_card(read, 0, &card, true, &card.source)) return;
     keyword_finish(read);
+    for (size_t k = 0; k < read->definitions->body_loads.count; k++)
+        if (read->definitions->body_loads.items[k].axis == card.axis)
+            keyword_warning(read, card.source, "this keyword is given again (before in line %d): both act together",
+                            read->definitions->body_loads.items[k].source.line);
     BodyLoadDefinition *load = KEYWORD_APPEND(read, read->definitions->body_loads);
     if (load) *load = card;
 }

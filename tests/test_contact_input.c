@@ -111,6 +111,11 @@ static void test_families(void **state)
     assert_true(c.d.contacts.items[1].automatic);
     assert_int_equal(count_notes(&c, "only measures"), 1);
     close_case(&c);
+    c = read_case(
+        "*CONTROL_CONTACT\n.1\n*CONTROL_CONTACT\n.2\n*LOAD_BODY_Z\n1,2\n*LOAD_BODY_Z\n1,3\n*LOAD_BODY_X\n1,3\n");
+    assert_int_equal(c.g.warnings, 2);
+    assert_true(c.d.control.contact.slsfac == 0.2);
+    close_case(&c);
     assert_one_error(CONTACT("TIED_NODES_TO_SURFACE", "1,2,3,3\n\n\n"), 1, "*CONTACT_TIED_NODES_TO_SURFACE",
                      "nothing is tied");
     assert_one_error(CONTACT("ERODING_SINGLE_SURFACE", "1,0,2\n\n\n1\n"), 1, "*CONTACT_ERODING_SINGLE_SURFACE",
