@@ -44,6 +44,7 @@ typedef struct RigidWall {
     unsigned char *tracked; /* 1: the wall acts on this node (moving_count) */
     unsigned char *pushed;  /* 1: it pushes this node of a moving rigid body (moving_count); NULL: none */
     double penalty;         /* on such nodes: share of what is stable (eq. W12) */
+    double *body_penalty;   /* stiffness x dt^2 on each such node of each moving rigid body; NULL: none [M] */
     int node_count;         /* nodes that the card names, fixed ones included */
     int behind_count;       /* of them, those that start behind the wall */
     int rigid_count;        /* of them, those of moving rigid parts that the wall does not see */

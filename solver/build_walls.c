@@ -232,6 +232,30 @@ static void warn(Builder *b, const RigidWallDefinition *d, const RigidWall *wall
     if (wall->rigid_count > 0) warn_of_passing(b, d, wall);
 }
 
+/* Stiffness x dt^2 on each node of each body: the stable share over the trace of (W12). Of what the wall cannot meet 0.
+ */
+static int share_penalty(Builder *b, RigidWall *wall)
+{
+    const int bodies = b->motion.rigid_body_count;
+    wall->body_penalty = builder_alloc(b, (size_t)bodies + 1, sizeof *wall->body_penalty);
+    if (!wall->body_penalty) return -1;
+    for (int i = 0; i < bodies; i++) {
+        RigidBody *body = &b->motion.rigid_bodies[i];
+        double trace = 0.0;
+        for (int k = 0; k < body->node_count; k++) {
+            const double *r = body->offset + 3 * (ptrdiff_t)k;
+            double square = vector3_dot(r, r);
+            body->reach = fmax(body->reach, sqrt(square));
+            if (!wall->pushed[body->node[k]]) continue;
+            trace += 1.0 / body->mass;
+            for (int c = 0; c < 3; c++)
+                if (body->inertia[c] > 0.0) trace += (square - r[c] * r[c]) / body->inertia[c];
+        }
+        wall->body_penalty[i] = trace > 0.0 ? wall->penalty / trace : 0.0;
+    }
+    return 0;
+}
+
 /* The wall's part of the stable penalty, and the nodes that it acts on. */
 static int push_bodies(Builder *b, RigidWall *wall, const unsigned char *named)
 {
@@ -245,28 +269,7 @@ static int push_bodies(Builder *b, RigidWall *wall, const unsigned char *named)
     for (int n = 0; n < b->node_count; n++)
         if (m->deck_node[n] < m->moving_count) wall->pushed[m->deck_node[n]] = named[n];
     b->model->walls_push_bodies = true;
-    return 0;
-}
-
-/* Weights of a body's nodes: their masses (1 if they have none) over the trace of (W12). */
-static int weigh_nodes(Builder *b, RigidBody *body)
-{
-    const double *mass = b->model->mass;
-    double total = 0.0, trace = 0.0;
-    body->wall_weight = builder_alloc(b, (size_t)body->node_count + 1, sizeof *body->wall_weight);
-    if (!body->wall_weight) return -1;
-    for (int k = 0; k < body->node_count; k++) total += mass[body->node[k]];
-    for (int k = 0; k < body->node_count; k++) {
-        const double *r = body->offset + 3 * (ptrdiff_t)k;
-        double square = vector3_dot(r, r), mobility = 1.0 / body->mass;
-        body->reach = fmax(body->reach, sqrt(square));
-        for (int i = 0; i < 3; i++)
-            if (body->inertia[i] > 0.0) mobility += (square - r[i] * r[i]) / body->inertia[i];
-        body->wall_weight[k] = total > 0.0 ? mass[body->node[k]] : 1.0;
-        trace += body->wall_weight[k] * mobility;
-    }
-    for (int k = 0; k < body->node_count; k++) body->wall_weight[k] /= trace;
-    return 0;
+    return share_penalty(b, wall);
 }
 
 int build_wall_nodes(Builder *b)
@@ -292,7 +295,5 @@ int build_wall_nodes(Builder *b)
             if (constraints->hanging[h].node < m->moving_count) wall->tracked[constraints->hanging[h].node] = 0;
         warn(b, &b->definitions->walls.items[i], wall);
     }
-    for (int k = 0; m->walls_push_bodies && k < b->motion.rigid_body_count; k++)
-        if (weigh_nodes(b, &b->motion.rigid_bodies[k])) return -1;
     return 0;
 }

@@ -25,8 +25,7 @@ typedef struct RigidBody {
     double constraint_axes[9];                /* rows, fixed in space; identity for CMO = 1 */
     double velocity[3], spin[3];              /* initial, of the centre and about it */
     double reach;                             /* largest distance of a node from the centre [L] */
-    double *wall_weight; /* masses of the nodes over the trace (W12) (node_count); NULL: no wall pushes [M] */
-    int body_class;      /* its part's gravity and damping: index into Loads.classes */
+    int body_class;                           /* its part's gravity and damping: index into Loads.classes */
 } RigidBody;
 
 /* Motion at a full step, for output. */

@@ -17,7 +17,7 @@ static bool pushes(const RigidWall *wall, const WallPlan *plan, const WallGap *g
     return *side == WALL_SIDE_FRONT && gap->over && gap->distance < 0.0;
 }
 
-/* Force of a wall on a node of mass share m within it (W12), with what rubs (W13). */
+/* Force of a wall on a node within it (W12), with what rubs (W13); share is k dt^2. */
 static void push_node(const RigidWall *wall, const WallPlan *plan, const WallGap *gap, const double v[3], double share,
                       double dt, double force[3])
 {
@@ -59,7 +59,7 @@ static void push_body(Workspace *w, int i, int b)
         vector3_subtract(w->state->x + 3 * (ptrdiff_t)node, plan->before, r);
         WallGap gap = rigid_wall_gap(wall, r);
         if (!pushes(wall, plan, &gap, side)) continue;
-        push_node(wall, plan, &gap, w->state->v + 3 * (ptrdiff_t)node, wall->penalty * body->wall_weight[k], dt, force);
+        push_node(wall, plan, &gap, w->state->v + 3 * (ptrdiff_t)node, wall->body_penalty[b], dt, force);
         double *all = w->wall_body_force + 3 * (ptrdiff_t)(node - m->free_count);
         for (int c = 0; c < 3; c++) {
             all[c] += force[c];

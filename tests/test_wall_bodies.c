@@ -63,6 +63,25 @@ static void it_slides_and_stops(void **state)
     verify_free(&run);
 }
 
+/* A node without mass that hangs on the body by *CONSTRAINED_EXTRA_NODES is all that meets the wall: a leg. One
+ * node takes the whole penalty, (w dt)^2 = 0.14. */
+static void it_bounces_on_a_leg(void **state)
+{
+    (void)state;
+    Scene scene = {0};
+    VerifyRun run;
+    WallRecord record;
+    begin(&scene, 0.5, 0.7, 1);
+    int leg = 1 + scene_add_node(&scene.mesh, 0.5, 0.5, 0.5);
+    scene_print(&scene.deck, "*CONSTRAINED_EXTRA_NODES_NODE\n2,%d\n*SET_NODE_LIST\n5\n%d\n", leg, leg);
+    scene_print(&scene.deck, "*INITIAL_VELOCITY_RIGID_BODY\n2,0,0,-2\n*RIGIDWALL_PLANAR\n5\n0,0,0,0,0,1\n");
+    wall_run(&run, &scene, &record, 1);
+    verify_close("speed after", body(&run)->v[2], 2, 5e-3);
+    verify_near("spin", vector3_norm(body(&run)->spin), 0, 1e-9);
+    assert_true(record.lowest[2] < 0 && record.lowest[2] > -0.02);
+    verify_free(&run);
+}
+
 /* What passes, what is told, what is refused; a wall with a mass, a wall behind which it starts, RWPNAL = 0. */
 static void what_passes(void **state)
 {
@@ -117,7 +136,8 @@ static void it_tumbles(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(it_bounces), cmocka_unit_test(it_slides_and_stops),
-                                       cmocka_unit_test(what_passes), cmocka_unit_test(it_tumbles)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(it_bounces), cmocka_unit_test(it_bounces_on_a_leg),
+                                       cmocka_unit_test(it_slides_and_stops), cmocka_unit_test(what_passes),
+                                       cmocka_unit_test(it_tumbles)};
     return cmocka_run_group_tests_name("rigid bodies at rigid walls", tests, NULL, NULL);
 }
