@@ -37,7 +37,7 @@ int main(int argc, char **argv)
     if (resting)
         scene_resting_bag(&scene, atoi(argv[1]), true);
     else
-        scene_folded_bag(&scene, atoi(argv[1]), 0);
+        scene_folded_bag(&scene, SCENE_DIAGONAL, atoi(argv[1]), 0);
     printf("time,cycle,crossings,depth,energy_ratio_min,energy_ratio_max,volume\n");
     verify_scene(&run, &scene, &(VerifyOptions){.every = EVERY, .threads = atoi(argv[2]), .probe = print_row});
     verify_free(&run);

@@ -101,7 +101,8 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     edge_ends(c, loop->state->x, e, f, p);
     if (!m && pass_by(p)) return;
     double thickness = run->thinness * (c->edge_radius[e] + c->edge_radius[f]);
-    double reach = thickness + closing_speed(loop->state->v, a, b) * loop->step.longer + (m ? law->deepest : 0.0);
+    double reach = thickness + contact_ahead(closing_speed(loop->state->v, a, b) * loop->step.longer, thickness) +
+                   (m ? law->deepest : 0.0);
     Crossing cross;
     if (!cross_edges(&cross, p, reach, m ? SLACK : 0.0)) {
         if (!m) return;

@@ -168,7 +168,7 @@ static bool cannot_touch(const ContactLaw *law, const NearFace *f, int32_t node,
     ContactTouch t = {.node = {node, f->at.corner[0], f->at.corner[1], f->at.corner[2]},
                       .weight = {1.0, -f->at.weight[0], -f->at.weight[1], -f->at.weight[2]}};
     contact_speed(law, &t);
-    return beyond * beyond > law->longer * law->longer * vector3_dot(t.speed, t.speed) * (1.0 + 1e-9);
+    return beyond > contact_ahead(law->longer * vector3_norm(t.speed), thickness) * (1.0 + 1e-9);
 }
 
 /* Of the triangles [first, end) of others those that the node may touch in this step. What it has no memory of it may
@@ -187,7 +187,8 @@ static int look_around(const ContactLoop *loop, ContactRun *run, const ContactLa
         f->memory = contact_recall(&run->faces, i, t);
         f->triangle = t;
         memcpy(f->at.corner, c->triangle + 3 * (ptrdiff_t)t, sizeof f->at.corner);
-        double reach = thickness + closing_speed(loop->state->v, c->node[i], f->at.corner) * loop->step.longer + depth;
+        double way = closing_speed(loop->state->v, c->node[i], f->at.corner) * loop->step.longer;
+        double reach = thickness + contact_ahead(way, thickness) + depth;
         if (f->memory)
             reach += contact_deepest(c);
         else if (!contact_moves(inverse, c->node[i], f->at.corner, 3))

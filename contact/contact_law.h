@@ -10,9 +10,6 @@
 #include "solver/elementary.h"
 #include "solver/vector3.h"
 
-/* Least gap that a step may leave, as a share of the distance at which the pair begins to push (eq. C13). */
-#define CONTACT_FLOOR 0.3
-
 /* Share of what a gap is short of that floor by, which the coming step gives back. */
 #define CONTACT_RISE 0.2
 
@@ -223,7 +220,7 @@ static inline int contact_push(const ContactLaw *law, ContactTouch *t, ContactMe
     double h = 0.25 * (law->before + law->next) * fabs(normal_speed);
     bool new_pair = m->side == 0, touching = t->gap < t->thickness + h;
     if (!touching) *m = (ContactMemory){0};
-    if (!touching && !(t->gap + normal_speed * law->next < t->thickness)) return 0;
+    if (!touching && !(t->gap < t->thickness + contact_ahead(-normal_speed * law->next, t->thickness))) return 0;
     ContactMasses masses = contact_masses(law, t);
     if (masses.effective == 0.0 || t->gap < -law->deepest) {
         sums->lost += m->side != 0 && masses.effective > 0.0;

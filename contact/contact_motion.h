@@ -16,6 +16,17 @@ enum {
     CONTACT_MIXED = -3,      /* body of a group with items of several */
 };
 
+/* Least gap that a step may leave, as a share of the distance at which the pair begins to push (eq. C13). */
+#define CONTACT_FLOOR 0.3
+
+/* How far beyond its thickness a pair counts that closes by way in a step: it comes within the thickness in the coming
+ * step, or below the floor in the next one (eq. C6a). */
+static inline double contact_ahead(double way, double thickness)
+{
+    double next = 2.0 * way - (1.0 - CONTACT_FLOOR) * thickness;
+    return next > way ? next : way;
+}
+
 /* Box around ways since the last search; zero is in it. */
 typedef struct ContactDrift {
     double low[3], high[3];

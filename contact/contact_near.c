@@ -54,6 +54,7 @@ static int wake_pairs(const ContactLoop *loop, const NearGroup *near, float befo
                           .group = near->group,
                           .before = before,
                           .longer = near->longer,
+                          .least = (float)near->own->radius[near->group],
                           .deepest = near->deepest};
     const unsigned own = near->own->sharp[near->group];
     int some = 0;
@@ -69,7 +70,8 @@ static int wake_pairs(const ContactLoop *loop, const NearGroup *near, float befo
             unsigned other = near->all->sharp[near->other[k]];
             ContactKept *kept = &near->kept[k];
             if (near->edges && !own && !other) continue; /* until an edge is sharp */
-            float step = speed[k - first] * near->longer * ROUND_UP;
+            double thickness = near->own->radius[near->group] + near->all->radius[near->other[k]];
+            float step = (float)contact_ahead((double)(speed[k - first] * near->longer), thickness) * ROUND_UP;
             float gap = contact_kept_way(kept, near->slack[k]) + step;
             bool known = kept->own == own && kept->other == other && gap + near->deepest <= kept->within;
             if (!known && look_at(loop, near, k, (double)step, part)) return -1;

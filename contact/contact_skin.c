@@ -56,7 +56,7 @@ void contact_skin_choose(ContactLoop *loop)
     }
 }
 
-/* A step more is asked for: pairs count before they touch. */
+/* Two steps more are asked for: pairs count before they touch (eq. C6a). */
 bool contact_skin_used_up(ContactLoop *loop)
 {
     const Model *m = loop->model;
@@ -64,14 +64,14 @@ bool contact_skin_used_up(ContactLoop *loop)
     skin->since += loop->step.next;
     for (int c = 0; c < loop->motion_count; c++) {
         const ContactMotion *motion = &loop->motions[c];
-        double square = 0.0, left = skin->of[c] - loop->step.longer * sqrt(motion->fastest);
+        double square = 0.0, left = skin->of[c] - 2.0 * loop->step.longer * sqrt(motion->fastest);
         for (int k = 0; k < 3; k++) {
             double way = fmax(-motion->drift.low[k], motion->drift.high[k]);
             square += way * way;
         }
         if (left < 0.0 || square > left * left) return true;
     }
-    double away = (skin->since + loop->step.longer) * vector3_norm(skin->velocity); /* of nodes that never move */
+    double away = (skin->since + 2.0 * loop->step.longer) * vector3_norm(skin->velocity); /* of nodes that never move */
     for (int n = m->moving_count; n < m->node_count; n += CONTACT_NODE_CHUNK)
         if (away > skin->of[n / CONTACT_NODE_CHUNK]) return true;
     return m->moving_count < m->node_count && away > skin->of[(m->node_count - 1) / CONTACT_NODE_CHUNK];

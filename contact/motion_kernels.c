@@ -120,7 +120,9 @@ static unsigned wake(const ContactWatch *watch, const int32_t *other, float *sla
         /* rounded towards what is closer */
         Lanes fast = lanes_root(square) * (1.0f + 2e-6f), way = fast * watch->before;
         left -= way + 3e-7f * (lanes_absolute(left) + way);
-        Lanes need = (fast * watch->longer + watch->deepest) * (1.0f + 1e-6f);
+        Lanes ahead = fast * watch->longer;
+        ahead = lanes_larger(ahead, 2.0f * ahead - (1.0f - (float)CONTACT_FLOOR) * watch->least);
+        Lanes need = (ahead + watch->deepest) * (1.0f + 1e-6f);
         *(Lanes *)(void *)(speed + r) = fast;
         some_store(slack + r, some, left);
         awake |= lanes_below(left, need) << r;

@@ -10,7 +10,8 @@ typedef struct ContactWatch {
     const ContactGroups *own, *others;
     int group;
     float before;  /* step that led here [T] */
-    float longer;  /* the longer of that and the next [T] */
+    float longer;  /* the step that contact reckons with, not less than that or the next [T] */
+    float least;   /* no more than the largest thickness of two items of each pair [L] */
     float deepest; /* a pair is awake that its items may meet by so much earlier [L] */
 } ContactWatch;
 

@@ -83,7 +83,7 @@ static void make_prestressed_cushion(Scene *scene, const Options *options)
 
 static void make_folded_bag(Scene *scene, const Options *options)
 {
-    scene_folded_bag(scene, options->n, 0);
+    scene_folded_bag(scene, SCENE_DIAGONAL, options->n, 0);
 }
 
 static void make_resting_folded(Scene *scene, const Options *options)

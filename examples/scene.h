@@ -261,9 +261,9 @@ typedef enum SceneStriker {
  * it (part 3). The bag vents when it is pressed. facets of a sphere: 0 for 6. */
 void scene_impactor(Scene *scene, int n, SceneStriker striker, int facets);
 
-/* A square bag of 4 n^2 triangles (n a multiple of 4; 0: 72) folded in eight layers, gap apart (0: their thickness),
- * that unfolds against itself. */
-void scene_folded_bag(Scene *scene, int n, double gap);
+/* A square bag of 2 n^2 quadrilaterals or 4 n^2 triangles (n a multiple of 4; 0: 72; of patterns SCENE_QUADS or
+ * SCENE_DIAGONAL) folded in eight layers, gap apart (0: their thickness), that unfolds against itself. */
+void scene_folded_bag(Scene *scene, ScenePattern pattern, int n, double gap);
 
 /* The same square of fabric FORM 2, folded or from flat and then without contact, brought to rest at 0.1 s by mass
  * damping; a relief valve closes at 115 kPa. Both have the flat square as their cloth. */

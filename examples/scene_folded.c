@@ -55,7 +55,7 @@ static void add_nodes(SceneMesh *mesh, const Fold *fold, bool flat)
 }
 
 /* Shells of both sheets; the rim is a seam: nodes of the lower sheet. */
-static void add_shells(SceneMesh *mesh, int cells)
+static void add_shells(SceneMesh *mesh, ScenePattern pattern, int cells)
 {
     int upper = (cells + 1) * (cells + 1);
     for (int layer = 0; layer < 2; layer++)
@@ -68,7 +68,11 @@ static void add_shells(SceneMesh *mesh, int cells)
                     bool rim = row == 0 || row == cells || column == 0 || column == cells;
                     if (layer == 1 && !rim) a[k] += upper;
                 }
-                if (layer == 1) {
+                if (pattern == SCENE_QUADS && layer == 1) {
+                    scene_add_shell(mesh, PART_TOP, a[0], a[1], a[2], a[3]);
+                } else if (pattern == SCENE_QUADS) {
+                    scene_add_shell(mesh, PART_BOTTOM, a[0], a[3], a[2], a[1]);
+                } else if (layer == 1) {
                     scene_add_shell(mesh, PART_TOP, a[0], a[1], a[2], a[2]);
                     scene_add_shell(mesh, PART_TOP, a[0], a[2], a[3], a[3]);
                 } else {
@@ -117,7 +121,7 @@ static int even_cells(int n)
     return ((n > 0 ? n : 72) + PANELS - 1) / PANELS * PANELS;
 }
 
-void scene_folded_bag(Scene *scene, int n, double gap)
+void scene_folded_bag(Scene *scene, ScenePattern pattern, int n, double gap)
 {
     SceneText *deck = &scene->deck;
     Fold fold = {even_cells(n), side / PANELS, gap > 0 ? gap : thickness, gap > 0 ? gap : thickness};
@@ -125,7 +129,7 @@ void scene_folded_bag(Scene *scene, int n, double gap)
     vented.vent_area = 1e-3;
     deck->exact = true;
     add_nodes(&scene->mesh, &fold, false);
-    add_shells(&scene->mesh, fold.cells);
+    add_shells(&scene->mesh, pattern, fold.cells);
     scene_begin(deck, "square bag folded in eight layers", 0.030, 0.9);
     scene_write_output(deck, 1e-4, 1e-4, 1e-3);
     write_parts(deck, 0);
@@ -144,7 +148,7 @@ void scene_resting_bag(Scene *scene, int n, bool folded)
     relieved.vent_curve = 3;
     deck->exact = true;
     add_nodes(&scene->mesh, &fold, !folded);
-    add_shells(&scene->mesh, fold.cells);
+    add_shells(&scene->mesh, SCENE_DIAGONAL, fold.cells);
     scene_begin(deck, folded ? "square bag folded in eight layers, brought to rest" : "the same bag from flat", 0.1,
                 0.9);
     scene_write_output(deck, 1e-4, 1e-4, 1e-2);

@@ -5,6 +5,7 @@
 
 #include "solver/build_contact.h"
 #include "solver/memory.h"
+#include "solver/vector3.h"
 
 /* Pairs remembered for each node and edge in State; more than that lose their memory at a restart only. */
 enum { MEMORY_BY_NODE = 8 };
@@ -180,19 +181,38 @@ static int wind_alike(ContactInterface *c)
     return 0;
 }
 
-/* Edges of the facets (not the cuts of quadrilaterals) with the triangles at them. */
+/* Is the edge opposite to corner k of triangle t the cut of a rigid quadrilateral that is as good as flat: its
+ * diagonals less than a tenth of the thickness apart? It stays so, and what keeps clear of its sides keeps clear of it.
+ */
+static bool is_idle_cut(const Builder *b, const ContactInterface *c, int t, int k)
+{
+    const double *x = b->model->initial;
+    const int32_t *corner = c->triangle + 3 * (ptrdiff_t)t;
+    const int32_t fourth = c->triangle_fourth[t];
+    int other = c->neighbour[3 * t + k];
+    double u[3], w[3], r[3], n[3];
+    if (c->triangle_body[t] < 0 || other < 0 || fourth < 0) return false;
+    if (c->triangle_shell[other] != c->triangle_shell[t]) return false;
+    const double *from = x + 3 * (ptrdiff_t)corner[(k + 1) % 3];
+    vector3_subtract(x + 3 * (ptrdiff_t)corner[(k + 2) % 3], from, u);
+    vector3_subtract(x + 3 * (ptrdiff_t)fourth, x + 3 * (ptrdiff_t)corner[k], w);
+    vector3_subtract(x + 3 * (ptrdiff_t)corner[k], from, r);
+    vector3_cross(u, w, n);
+    vector3_normalize(n);
+    return fabs(vector3_dot(n, r)) < 0.1 * c->thickest;
+}
+
+/* Edges with the triangles at them: of the facets, and the cuts of quadrilaterals, along which these fold where they
+ * warp (docs/theory.md, Edges). */
 static int make_edges(Builder *b, ContactInterface *c)
 {
     size_t count = 0;
     HalfEdge *edges = memory_alloc(3 * (size_t)c->triangle_count + 1, sizeof *edges);
     if (!edges) return -1;
     for (int t = 0; t < c->triangle_count; t++)
-        for (int k = 0; k < 3; k++) {
-            int other = c->neighbour[3 * t + k];
-            bool cut = other >= 0 && c->triangle_shell[other] == c->triangle_shell[t] && c->triangle_fourth[t] >= 0;
-            if (!cut)
+        for (int k = 0; k < 3; k++)
+            if (!is_idle_cut(b, c, t, k))
                 edges[count++] = half_edge(c->triangle[3 * t + (k + 1) % 3], c->triangle[3 * t + (k + 2) % 3], t, k);
-        }
     qsort(edges, count, sizeof *edges, compare_half_edges);
     c->edge = builder_alloc(b, 2 * count + 2, sizeof *c->edge);
     c->edge_triangle = builder_alloc(b, 2 * count + 2, sizeof *c->edge_triangle);
@@ -295,12 +315,12 @@ int build_contact_surfaces(Builder *b)
         bool edges = c->kind == CONTACT_SELF || c->kind == CONTACT_TWO_WAY;
         if (make_triangles(b, s, c) || find_neighbours(b, c) || wind_alike(c) || list_fans(b, c) || list_nodes(b, s, c))
             return -1;
-        if (edges && (make_edges(b, c) || list_edges(b, c))) return -1;
         double node = 0.0, triangle = 0.0;
         for (int k = 0; k < c->node_count; k++) node = fmax(node, c->node_radius[k]);
         for (int t = 0; t < c->triangle_count; t++) triangle = fmax(triangle, c->triangle_radius[t]);
         c->thickest = edges ? 2.0 * triangle : node + triangle;
         if (node + triangle > c->thickest) c->thickest = node + triangle;
+        if (edges && (make_edges(b, c) || list_edges(b, c))) return -1;
         c->first_edge = m->contact_edge_size;
         m->contact_edge_size += (size_t)c->edge_count;
         c->first_memory = m->contact_memory_size;
