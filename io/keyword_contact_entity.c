@@ -181,8 +181,11 @@ static const KeywordSpec specs[] = {
          "refused. Finite planes and open profiles hold only nodes that come through them. INTORD = n: n x n points "
          "within each segment as well. ITHK = 1: half the shells' thickness stays clear, for all shapes and SSTYP. SO "
          "0 "
-         "and 1 are one stable penalty, scaled by SF. Nodes that start inside push only when they come deeper. Forces: "
-         "*DATABASE_GCEOUT. Numbered in deck order."},
+         "and 1 are one stable penalty, scaled by SF. Nodes that start inside push only when they come deeper. Each "
+         "*CONTACT_ENTITY is a contact of its own, also on the same part: a node inside of two shapes is pushed by "
+         "both, "
+         "by each along the shortest way out of it, and a seam is that much stiffer. A body of revolution by its whole "
+         "outline has no seams. Forces: *DATABASE_GCEOUT. Numbered in deck order."},
 };
 
 const KeywordFamily keyword_family_contact_entity = {"Smooth rigid shapes", specs, (int)(sizeof specs / sizeof *specs)};
