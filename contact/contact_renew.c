@@ -6,7 +6,7 @@
 #include "contact/contact_pairs.h"
 
 /* Cycles from look to look at the edges, and looks from room to room. */
-enum { SHARP_CYCLES = 4, ROOM_LOOKS = 4 };
+enum { SHARP_CYCLES = 2, ROOM_LOOKS = 8 };
 
 /* Each thread its share of the nodes. */
 static void keep_positions(ContactLoop *loop, int thread, int threads)
