@@ -85,6 +85,23 @@ void step_elements(Workspace *w, int thread, int threads)
     }
 }
 
+enum { WORKSPACE_BLOCKS = 41 };
+
+/* All arrays of allocate. */
+static void list_blocks(const Workspace *w, void *blocks[WORKSPACE_BLOCKS])
+{
+    void *all[] = {
+        w->rows,         w->chunks,        w->node_sums,       w->bag_pressure,    w->load_pressure,  w->stagnation,
+        w->set_volume,   w->set_area,      w->source_pressure, w->class_gravity,   w->class_damping,  w->class_velocity,
+        w->bag_volume,   w->bag_area,      w->force,           w->before,          w->acceleration,   w->velocity,
+        w->part_kinetic, w->part_momentum, w->special_kind,    w->lane_rate,       w->kept_history,   w->gas_pass,
+        w->drag,         w->newton,        w->walls,           w->wall_sums,       w->wall_pending,   w->wall_force,
+        w->group_area,   w->part_area,     w->part_blocked,    w->fluid_volume,    w->reference_jump, w->tie_strain,
+        w->tie_volume,   w->implicit,      w->implicit_before, w->wall_body_force, w->wall_body_sum};
+    _Static_assert(sizeof all / sizeof *all == WORKSPACE_BLOCKS, "one place for each array");
+    memcpy(blocks, all, sizeof all);
+}
+
 static int allocate(Workspace *w)
 {
     const Model *m = w->model;
@@ -137,16 +154,10 @@ static int allocate(Workspace *w)
     w->wall_force = memory_alloc(4 * walls + 1, sizeof(double));
     w->wall_body_force = memory_alloc(m->walls_push_bodies ? 3 * special + 1 : 1, sizeof(double));
     w->wall_body_sum = memory_alloc(4 * walls + 1, sizeof(double));
-    void *needed[] = {
-        w->rows,         w->chunks,        w->node_sums,       w->bag_pressure,    w->load_pressure,  w->stagnation,
-        w->set_volume,   w->set_area,      w->source_pressure, w->class_gravity,   w->class_damping,  w->class_velocity,
-        w->bag_volume,   w->bag_area,      w->force,           w->before,          w->acceleration,   w->velocity,
-        w->part_kinetic, w->part_momentum, w->special_kind,    w->lane_rate,       w->kept_history,   w->gas_pass,
-        w->drag,         w->newton,        w->walls,           w->wall_sums,       w->wall_pending,   w->wall_force,
-        w->group_area,   w->part_area,     w->part_blocked,    w->fluid_volume,    w->reference_jump, w->tie_strain,
-        w->tie_volume,   w->implicit,      w->implicit_before, w->wall_body_force, w->wall_body_sum};
-    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
-        if (!needed[i]) return -1;
+    void *blocks[WORKSPACE_BLOCKS];
+    list_blocks(w, blocks);
+    for (int i = 0; i < WORKSPACE_BLOCKS; i++)
+        if (!blocks[i]) return -1;
     return step_share_allocate(w) || step_functions_allocate(w) || step_jets_allocate(w) || step_erosion_allocate(w)
                ? -1
                : 0;
@@ -155,15 +166,9 @@ static int allocate(Workspace *w)
 static void release(Workspace *w)
 {
     if (w->before == w->acceleration) w->before = NULL;
-    void *blocks[] = {
-        w->rows,         w->chunks,        w->node_sums,       w->bag_pressure,    w->load_pressure,  w->stagnation,
-        w->set_volume,   w->set_area,      w->source_pressure, w->class_gravity,   w->class_damping,  w->class_velocity,
-        w->bag_volume,   w->bag_area,      w->force,           w->before,          w->acceleration,   w->velocity,
-        w->part_kinetic, w->part_momentum, w->special_kind,    w->lane_rate,       w->kept_history,   w->gas_pass,
-        w->drag,         w->newton,        w->walls,           w->wall_sums,       w->wall_pending,   w->wall_force,
-        w->group_area,   w->part_area,     w->part_blocked,    w->fluid_volume,    w->reference_jump, w->tie_strain,
-        w->tie_volume,   w->implicit,      w->implicit_before, w->wall_body_force, w->wall_body_sum};
-    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
+    void *blocks[WORKSPACE_BLOCKS];
+    list_blocks(w, blocks);
+    for (int i = 0; i < WORKSPACE_BLOCKS; i++) memory_free(blocks[i]);
     reference_work_free(w->model, &w->reference);
     memory_free(w->segment_middle);
     step_functions_release(w);

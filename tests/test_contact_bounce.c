@@ -42,11 +42,12 @@ static void check_end(const VerifyRun *run, double tolerance)
 }
 
 /* A loose sheet flies onto a fixed plate and off again: elastic contact gives its speed back. */
-static void bounce_with(ScenePattern pattern, const SceneContact *card, double expected, double tolerance)
+static void bounce_from(double height, ScenePattern pattern, const SceneContact *card, double expected,
+                        double tolerance)
 {
     Scene scene = {0};
-    begin(&scene, 1e-3);
-    int sheet = scene_add_sheet(&scene.mesh, 1, pattern, 8, 8, 0.08, 0.08, 0, 0, 1e-3);
+    begin(&scene, height / 5 + 8e-4);
+    int sheet = scene_add_sheet(&scene.mesh, 1, pattern, 8, 8, 0.08, 0.08, 0, 0, height);
     int plate = scene_add_sheet(&scene.mesh, 2, SCENE_QUADS, 3, 3, 0.12, 0.12, -0.02, -0.02, 0);
     scene_write_speed(&scene.deck, sheet, plate, 0, 0, -5);
     scene_write_contact(&scene.deck, card);
@@ -59,6 +60,11 @@ static void bounce_with(ScenePattern pattern, const SceneContact *card, double e
     verify_near("speed after over speed before", v / 5, expected, tolerance);
     check_end(&run, 1e-3);
     verify_free(&run);
+}
+
+static void bounce_with(ScenePattern pattern, const SceneContact *card, double expected, double tolerance)
+{
+    bounce_from(1e-3, pattern, card, expected, tolerance);
 }
 
 #define NODES_ON_PLATE .keyword = "AUTOMATIC_NODES_TO_SURFACE", .a = 1, .b = 2, .a_type = 3, .b_type = 3
@@ -90,6 +96,14 @@ static void step_that_falls(void **state)
         verify_near("speed after over speed before", mean_speed(&run, sheet, plate, 2) / 5, 1, 0.03);
         verify_free(&run);
     }
+}
+
+/* From several elements away: at the start the two are no pair of anything yet. */
+static void from_afar(void **state)
+{
+    (void)state;
+    bounce_from(0.05, SCENE_QUADS, &(SceneContact){NODES_ON_PLATE}, 1, 0.01);
+    bounce_from(0.05, SCENE_DIAGONAL, &(SceneContact){NODES_ON_PLATE}, 1, 0.01);
 }
 
 /* A sheet that starts nearer than its thickness parts with its own speed: no push, no energy. */
@@ -222,6 +236,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sheet_on_plate),  cmocka_unit_test(parting),
                                        cmocka_unit_test(birth_and_death), cmocka_unit_test(momentum_is_kept),
-                                       cmocka_unit_test(friction),        cmocka_unit_test(step_that_falls)};
+                                       cmocka_unit_test(friction),        cmocka_unit_test(step_that_falls),
+                                       cmocka_unit_test(from_afar)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,17 +30,6 @@ static void add_bar(Scene *scene, int first, int part, int n, double x, double y
     }
 }
 
-static void build(VerifyRun *run, Scene *scene, int errors)
-{
-    scene_end(&scene->deck, &scene->mesh);
-    assert_true(scene_ok(scene));
-    int status = verify_build(run, scene->deck.text, scene->deck.length, &(VerifyOptions){.every = 1});
-    scene_free(scene);
-    if (run->diagnostics.errors != errors) diagnostics_print(&run->diagnostics, SEVERITY_NOTE, stderr);
-    assert_int_equal(run->diagnostics.errors, errors);
-    assert_int_equal(status != 0, errors != 0);
-}
-
 static void near3(const char *name, const double *value, double x, double y, double z)
 {
     verify_near(name, value[0], x, 1e-12);
@@ -65,7 +54,7 @@ static void solids_have_mass_and_faces(void **state)
     scene_print(&scene.deck, "*ELEMENT_SOLID\n11,3,%d,%d,%d,%d,%d,%d,%d,%d\n", n[1], n[0], n[3], n[4], n[2], n[2], top,
                 top);
     scene_print(&scene.deck, "12,3\n%d,%d,%d,%d\n", n[0], n[4], n[1], n[2]);
-    build(&run, &scene, 0);
+    verify_scene_build(&run, &scene, 0);
     assert_int_equal(run.model.rigid_body_count, 2);
     const RigidBody *bar = &run.model.rigid_bodies[0], *odd = &run.model.rigid_bodies[1];
     verify_close("mass of the bar", bar->mass, 9, 1e-14);
@@ -108,7 +97,7 @@ static void joined_parts_move_as_one(void **state)
                 "*CONSTRAINED_RIGID_BODIES\n2,3\n*CONSTRAINED_EXTRA_NODES_SET\n3,7\n*SET_NODE_LIST\n7\n1,2,3,4\n"
                 "*INITIAL_VELOCITY_RIGID_BODY\n2,1,0,0,0,0,2\n");
     wall_write_gravity(&scene.deck, 10);
-    build(&run, &scene, 0);
+    verify_scene_build(&run, &scene, 0);
     assert_int_equal(run.model.rigid_body_count, 1);
     const RigidBody *body = &run.model.rigid_bodies[0];
     assert_int_equal(body->part_id, 2);
@@ -137,7 +126,7 @@ static void node_sets_become_bodies(void **state)
         scene_print(&scene.deck, "*CONSTRAINED_NODAL_RIGID_BODY%s\n9,0,7\n%s*SET_NODE_LIST\n7\n1,2,3,4\n",
                     held ? "_SPC" : "", held ? "1,7,4\n" : "");
         scene_print(&scene.deck, "*INITIAL_VELOCITY_RIGID_BODY\n9,3,0,0,0,0,2\n");
-        build(&run, &scene, 0);
+        verify_scene_build(&run, &scene, 0);
         const RigidBody *body = &run.model.rigid_bodies[0];
         assert_true(body->nodal && body->part_id == 9);
         verify_close("mass", body->mass, 4, 1e-14);
@@ -164,7 +153,7 @@ static void inertia_is_given_by_a_card(void **state)
     wall_add_square(&scene, 9, 9, 9);
     add_bar(&scene, 1, 2, 1, 0, 0, 0);
     wall_write_gravity(deck, 10);
-    build(&run, &scene, 0);
+    verify_scene_build(&run, &scene, 0);
     const RigidBody *body = &run.model.rigid_bodies[0];
     verify_close("mass", body->mass, 20, 1e-15);
     near3("centre", body->centre, 0.5, 0.5, 0.25);
@@ -203,7 +192,7 @@ static void bad_bodies_are_told_together(void **state)
     scene_print(deck,
                 "*CONSTRAINED_RIGID_BODIES\n2,1\n8,3\n*CONSTRAINED_EXTRA_NODES_NODE\n3,5\n1,6\n2,99\n"
                 "*CONSTRAINED_NODAL_RIGID_BODY\n9,0,77\n*CONSTRAINED_NODAL_RIGID_BODY\n2,0,7\n*SET_NODE_LIST\n7\n1\n");
-    build(&run, &scene, 7);
+    verify_scene_build(&run, &scene, 7);
     expect(&run, "PIDC = 1 is no rigid part");
     expect(&run, "PIDL = 8: there is no part");
     expect(&run, "rigid bodies 2 and 3 share node 5");
@@ -216,7 +205,7 @@ static void bad_bodies_are_told_together(void **state)
     begin(&scene, 1);
     wall_add_square(&scene, -2, 0, 0);
     scene_print(deck, "*ELEMENT_SOLID\n1,1,1,2,3,4,1,2,3,4\n2,5,1,2,3,4\n3,2,1,2,3,4,1,2,3,99\n4,2,1,2,3,4,4,4,4,4\n");
-    build(&run, &scene, 4);
+    verify_scene_build(&run, &scene, 4);
     expect(&run, "solid 1 is of part 1, which is not rigid");
     expect(&run, "PID = 5");
     expect(&run, "N8 = 99");
@@ -242,7 +231,7 @@ static void doubtful_inertia_is_told(void **state)
         scene_print(&scene.deck,
                     "*SET_NODE_LIST\n7\n1,2,3,4\n*CONSTRAINED_NODAL_RIGID_BODY_INERTIA\n9,0,7\n.5,.5,0,%s\n0\n",
                     cases[i].numbers);
-        build(&run, &scene, 0);
+        verify_scene_build(&run, &scene, 0);
         if (cases[i].warning) assert_true(verify_message(&run.diagnostics, SEVERITY_WARNING, cases[i].warning));
         assert_int_equal(run.diagnostics.warnings, cases[i].warning != NULL);
         verify_free(&run);
@@ -279,7 +268,7 @@ static void inertia_cards_decide_the_start(void **state)
                     cases[i].cards);
         wall_add_square(&scene, 9, 9, 9);
         add_bar(&scene, 1, 2, 1, 0, 0, 0);
-        build(&run, &scene, 0);
+        verify_scene_build(&run, &scene, 0);
         near3("velocity", run.state.rigid[0].v, cases[i].v, 0, 0);
         near3("spin", run.state.rigid[0].spin, 0, 0, cases[i].spin);
         assert_int_equal(verify_message(&run.diagnostics, SEVERITY_WARNING, "of its INERTIA card"), cases[i].warnings);
@@ -298,7 +287,7 @@ static void nodal_bodies_are_not_joined(void **state)
     add_bar(&scene, 1, 2, 1, 0, 0, 0);
     scene_print(&scene.deck, "*SET_NODE_LIST\n7\n1,2\n*CONSTRAINED_NODAL_RIGID_BODY\n9,0,7\n"
                              "*CONSTRAINED_RIGID_BODIES\n2,9\n");
-    build(&run, &scene, 1);
+    verify_scene_build(&run, &scene, 1);
     expect(&run, "PIDC = 9 is a nodal rigid body");
     verify_free(&run);
 }

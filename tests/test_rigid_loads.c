@@ -22,24 +22,13 @@ static void begin(Scene *scene, double end_time, int fixed)
     scene_print(deck, "*SECTION_SOLID\n2\n*DEFINE_CURVE\n7\n0,1\n10,1\n*CONTROL_TIMESTEP\n0.001\n");
 }
 
-static void build(VerifyRun *run, Scene *scene, int errors)
-{
-    scene_end(&scene->deck, &scene->mesh);
-    assert_true(scene_ok(scene));
-    int status = verify_build(run, scene->deck.text, scene->deck.length, &(VerifyOptions){.every = 1});
-    scene_free(scene);
-    if (run->diagnostics.errors != errors) diagnostics_print(&run->diagnostics, SEVERITY_NOTE, stderr);
-    assert_int_equal(run->diagnostics.errors, errors);
-    assert_int_equal(status != 0, errors != 0);
-}
-
 /* Runs a deck with these cards; the state of the first body at the end. */
 static RigidOutput run_cards(VerifyRun *run, const char *cards, double end_time)
 {
     Scene scene = {0};
     begin(&scene, end_time, 0);
     scene_print(&scene.deck, "%s", cards);
-    build(run, &scene, 0);
+    verify_scene_build(run, &scene, 0);
     assert_int_equal(verify_loop(run), 0);
     verify_near("balance", wall_imbalance(run), 0, 1e-3);
     return run->state.rigid[0].output;
@@ -107,14 +96,14 @@ static void bad_cards_are_told_together(void **state)
     VerifyRun run;
     begin(&scene, 1, 0);
     scene_print(&scene.deck, "*LOAD_RIGID_BODY\n2,9,7\n1,1,7\n77,1,7\n2,4,7,1,0,5,0,9\n2,1,66\n");
-    build(&run, &scene, 5);
+    verify_scene_build(&run, &scene, 5);
     for (int i = 0; i < 5; i++)
         if (!verify_message(&run.diagnostics, SEVERITY_ERROR, expected[i])) fail_msg("no error '%s'", expected[i]);
     verify_free(&run);
     scene = (Scene){0};
     begin(&scene, 1, 7);
     scene_print(&scene.deck, "*LOAD_RIGID_BODY\n2,1,7\n");
-    build(&run, &scene, 0);
+    verify_scene_build(&run, &scene, 0);
     assert_true(verify_message(&run.diagnostics, SEVERITY_WARNING, "the load has no effect"));
     verify_free(&run);
 }

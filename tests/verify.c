@@ -124,6 +124,17 @@ void verify_scene(VerifyRun *run, Scene *scene, const VerifyOptions *options)
     if (verify_loop(run)) fail_msg("the run failed: %s; %s", run->failure.cause, run->failure.advice);
 }
 
+void verify_scene_build(VerifyRun *run, Scene *scene, int errors)
+{
+    scene_end(&scene->deck, &scene->mesh);
+    assert_true(scene_ok(scene));
+    int status = verify_build(run, scene->deck.text, scene->deck.length, &(VerifyOptions){.every = 1});
+    scene_free(scene);
+    if (run->diagnostics.errors != errors) diagnostics_print(&run->diagnostics, SEVERITY_NOTE, stderr);
+    assert_int_equal(run->diagnostics.errors, errors);
+    assert_int_equal(status != 0, errors != 0);
+}
+
 void verify_free(VerifyRun *run)
 {
     memory_free(run->x);

@@ -67,6 +67,10 @@ int verify_loop(VerifyRun *run);
 /* Both for a scene, which is freed; any error of the deck or the loop is printed and fails the cmocka test. */
 void verify_scene(VerifyRun *run, Scene *scene, const VerifyOptions *options);
 
+/* Ends a scene and builds its model, which records every cycle; the scene is freed. With errors > 0 it has to be
+ * refused with so many. */
+void verify_scene_build(VerifyRun *run, Scene *scene, int errors);
+
 void verify_free(VerifyRun *run);
 
 /* A channel at a time between the samples, by cubic interpolation; offset is offsetof(VerifySample, member). */
