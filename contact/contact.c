@@ -91,13 +91,10 @@ void contact_prepare(ContactLoop *loop, double time, double before, double next,
             (ContactStep){.time = time, .before = before, .next = next, .longer = loop->state->contact->longer};
         set_thinness(loop);
         if (due) contact_skin_choose(loop);
-        if (eroded) {
-            contact_erode(loop);
-            loop->state->contact->unseen = INT32_MAX; /* new rims are sharp */
-        }
+        if (eroded) contact_erode(loop);
     }
     if (due) contact_search(loop, thread, team);
-    contact_renew(loop, thread, team);
+    contact_renew_room(loop, thread, team);
     if (thread != 0 || !due) return;
     loop->search_due = false;
     if (eroded) loop->eroded_seen = *loop->state->eroded_count;

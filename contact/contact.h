@@ -58,7 +58,6 @@ typedef struct ContactInterface {
 
     double longest_side; /* mean longest side of the triangles at the start [L]; cells of the search */
     double thickest;     /* largest sum of radii of a pair [L] */
-    size_t first_edge;   /* its place in State.contact_sharp */
     size_t first_memory; /* its place in State.contact_memory */
     int memory_capacity; /* entries there */
 } ContactInterface;

@@ -11,7 +11,7 @@ enum { CONTACT_NO_SLOT = -1, CONTACT_NEW_SLOT = -2 };
 /* What a pair of groups has kept of its last look. */
 typedef struct ContactKept {
     int32_t slot;        /* of its candidates; CONTACT_NO_SLOT: there are none */
-    uint16_t own, other; /* lanes that were sharp: of edges only those pairs are there of which one is */
+    uint16_t own, other; /* lanes that were nearly sharp: of edges only those pairs are there of which one is */
     float slack;         /* of the pair then [L] */
     float within;        /* all with a gap of no more than this are there; -FLT_MAX: nothing is known [L] */
 } ContactKept;

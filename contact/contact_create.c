@@ -66,10 +66,11 @@ void contact_free(ContactLoop *loop)
         contact_groups_free(&loop->runs[i].triangles);
         contact_groups_free(&loop->runs[i].lines);
         contact_living_free(&loop->runs[i]);
-        memory_free(loop->runs[i].plane);
         memory_free(loop->runs[i].line_body);
         memory_free(loop->runs[i].line_shell);
-        memory_free(loop->runs[i].line_group);
+        memory_free(loop->runs[i].line_wing);
+        memory_free(loop->runs[i].line_place);
+        memory_free(loop->runs[i].sharp);
     }
     entities_free(loop->entities, loop->model);
     contact_grid_free(&loop->grid);
@@ -171,16 +172,28 @@ static int group_nodes(ContactGroups *groups, const ContactInterface *c, const C
     return status;
 }
 
+/* The corner of a triangle that an edge lacks. A free edge or a branch has none: its wings have no area. */
+static int32_t wing_of(const ContactInterface *c, int e, int32_t triangle)
+{
+    const int32_t *ends = c->edge + 2 * (ptrdiff_t)e;
+    for (int k = 0; k < 3 && triangle >= 0; k++) {
+        int32_t node = c->triangle[3 * (ptrdiff_t)triangle + k];
+        if (node != ends[0] && node != ends[1]) return node;
+    }
+    return ends[0];
+}
+
 void contact_items(ContactRun *run, ContactItems items[3])
 {
     const ContactInterface *c = run->contact;
-    items[0] = (ContactItems){c->node_count, 1, c->node, c->node_side, c->node_body, c->node_radius, NULL, NULL};
+    items[0] = (ContactItems){c->node_count, 1, c->node, c->node_side, c->node_body, c->node_radius, NULL, NULL, NULL};
     items[1] = (ContactItems){
-        c->triangle_count, 3, c->triangle, c->triangle_side, c->triangle_body, c->triangle_radius, c->triangle_shell,
-        c->triangle_fourth};
-    items[2] =
-        (ContactItems){c->edge_count, 2, c->edge, c->edge_side, run->line_body, c->edge_radius, run->line_shell, NULL};
+        c->triangle_count,  3,   c->triangle, c->triangle_side, c->triangle_body, c->triangle_radius, c->triangle_shell,
+        c->triangle_fourth, NULL};
+    items[2] = (ContactItems){c->edge_count,   2,    c->edge,       c->edge_side, run->line_body, c->edge_radius,
+                              run->line_shell, NULL, run->line_wing};
     for (int e = 0; e < c->edge_count; e++) {
+        for (int k = 0; k < 2; k++) run->line_wing[2 * e + k] = wing_of(c, e, c->edge_triangle[2 * e + k]);
         run->line_body[e] = c->triangle_body[c->edge_triangle[2 * e]];
         run->line_shell[e] = c->triangle_shell[c->edge_triangle[2 * e]];
     }
@@ -195,7 +208,7 @@ static int groups_create(ContactRun *run, int nodes)
         return -1;
     for (int k = 0; k < run->lines.count * CONTACT_GROUP; k++) {
         int32_t e = run->lines.lanes[k / CONTACT_GROUP].item[k % CONTACT_GROUP];
-        if (e >= 0) run->line_group[e] = k / CONTACT_GROUP;
+        if (e >= 0) run->line_place[e] = k;
     }
     return 0;
 }
@@ -204,15 +217,15 @@ static int run_create(ContactLoop *loop, int i)
 {
     ContactRun *run = &loop->runs[i];
     const ContactInterface *c = &loop->model->contacts[i];
-    size_t triangles = (size_t)c->triangle_count + 1;
     run->contact = c;
     if (loop->model->has_erosion && contact_living_create(run, c, loop->model->node_count)) return -1;
     run->force = loop->resultant + 3 * (ptrdiff_t)i;
-    run->plane = memory_alloc(4 * triangles, sizeof(double));
     run->line_body = memory_alloc((size_t)c->edge_count + 1, sizeof *run->line_body);
     run->line_shell = memory_alloc((size_t)c->edge_count + 1, sizeof *run->line_shell);
-    run->line_group = memory_alloc((size_t)c->edge_count + 1, sizeof *run->line_group);
-    if (!run->plane || !run->line_body || !run->line_shell || !run->line_group) return -1;
+    run->line_wing = memory_alloc(2 * (size_t)c->edge_count + 1, sizeof *run->line_wing);
+    run->line_place = memory_alloc((size_t)c->edge_count + 1, sizeof *run->line_place);
+    run->sharp = memory_alloc((size_t)c->edge_count / CONTACT_GROUP + 1, sizeof *run->sharp);
+    if (!run->line_body || !run->line_shell || !run->line_wing || !run->line_place || !run->sharp) return -1;
     return list_create(&run->faces, c->node_count) || list_create(&run->edges, c->edge_count) ||
                    groups_create(run, loop->model->node_count)
                ? -1
@@ -225,6 +238,7 @@ static void choose_kernels(ContactLoop *loop)
     int level = table ? table->level : 2;
     loop->kernels = level == 4 ? &near_kernels_v4 : level == 3 ? &near_kernels_v3 : &near_kernels_v2;
     loop->motion_kernels = level == 4 ? &motion_kernels_v4 : level == 3 ? &motion_kernels_v3 : &motion_kernels_v2;
+    loop->sharp_kernels = level == 4 ? &sharp_kernels_v4 : level == 3 ? &sharp_kernels_v3 : &sharp_kernels_v2;
     loop->grid.overlap = loop->motion_kernels->overlap;
 }
 
@@ -265,9 +279,6 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
         loop->eroded_seen = *state->eroded_count;
     }
     if (!status && state->contact->started) {
-        loop->restored = true;
-        for (int i = 0; i < model->contact_count; i++) contact_sharp_mark(loop, &loop->runs[i], 0, 1);
-        loop->restored = false;
         contact_fill_room(loop, 0, 1);
         restore_memories(loop);
         for (int n = 0; n < model->node_count; n++) {

@@ -130,22 +130,26 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     if (m->side) memcpy(m->direction, t.direction, sizeof m->direction);
     if (m == &fresh && m->side != 0) contact_keep(&run->edges, e, f, m);
     if (!counts) return;
-    const unsigned char *sharp = loop->state->contact_sharp + c->first_edge;
-    out->blocks = sharp[e] && sharp[f];
+    out->blocks = contact_is_sharp(loop, run, e) && contact_is_sharp(loop, run, f);
     sums->count++;
     double sign = c->edge_side[e] & CONTACT_SIDE_A ? 1.0 : -1.0;
     for (int k = 0; k < 3; k++) sums->force[k] += sign * out->force[k];
 }
 
+static int owner_group(const ContactRun *run, int e)
+{
+    return run->line_place[e] / CONTACT_GROUP;
+}
+
 /* Gives a memory to the pair e, f if they cross and know nothing yet; its side by the direction of the force. */
 static bool leave_to(ContactLoop *loop, ContactRun *run, const ContactPassage *ended, int e, int f)
 {
-    const unsigned char *sharp = loop->state->contact_sharp + run->contact->first_edge;
     const double *p[4], *was = ended->memory.direction;
     Crossing cross;
-    bool swapped = run->line_group[f] < run->line_group[e] || (run->line_group[f] == run->line_group[e] && f < e);
+    bool swapped = owner_group(run, f) < owner_group(run, e) || (owner_group(run, f) == owner_group(run, e) && f < e);
     int owner = swapped ? f : e, other = swapped ? e : f;
-    if (e == f || !(sharp[e] || sharp[f]) || contact_recall(&run->edges, owner, other)) return false;
+    if (e == f || contact_recall(&run->edges, owner, other)) return false;
+    if (!contact_is_sharp(loop, run, e) && !contact_is_sharp(loop, run, f)) return false;
     if (!contact_edges_meet(loop->model, run->contact, owner, other)) return false;
     edge_ends(run->contact, loop->state->x, owner, other, p);
     /* it has slid along: the gap is about what it was */
@@ -160,7 +164,7 @@ static bool leave_to(ContactLoop *loop, ContactRun *run, const ContactPassage *e
         m.friction[k] *= sign;
     }
     contact_keep(&run->edges, owner, other, &m);
-    run->edges.holds[run->line_group[owner]] = 1;
+    run->edges.holds[owner_group(run, owner)] = 1;
     return true;
 }
 

@@ -3,12 +3,14 @@
 #define BILLOW_CONTACT_LOOP_H
 
 #include <math.h>
+#include <stdatomic.h>
 
 #include "contact/contact_candidates.h"
 #include "contact/contact_grid.h"
 #include "contact/contact_motion.h"
 #include "contact/motion_kernels.h"
 #include "contact/near_kernels.h"
+#include "contact/sharp_kernels.h"
 #include "elements/kernels.h"
 #include "solver/model.h"
 #include "solver/state.h"
@@ -157,11 +159,13 @@ typedef struct ContactRun {
     ContactList faces, edges;
     ContactGroups nodes, triangles, lines; /* owners of faces, triangles, and edges */
     int32_t *line_body, *line_shell;       /* of the first triangle at each edge (edge_count) */
-    int32_t *line_group;                   /* of each edge; the edge of the lower group owns a pair (edge_count) */
-    double *plane;      /* unit normal and offset of each triangle at the last search (triangle_count x 4) */
-    bool alive, asleep; /* asleep: it is not alive and has forgotten */
-    double thinness;    /* factor on the radii, of LCIDAB */
-    double *force;      /* on side A at t_n, in resultant [F] */
+    int32_t *line_wing;                    /* far corners of the triangles at each edge (edge_count x 2) */
+    int32_t
+        *line_place; /* group x CONTACT_GROUP + lane of each edge; that of the lower group owns a pair (edge_count) */
+    _Atomic uint64_t *sharp; /* ContactSharp of each group of edges as last asked for, with its cycle (groups) */
+    bool alive, asleep;      /* asleep: it is not alive and has forgotten */
+    double thinness;         /* factor on the radii, of LCIDAB */
+    double *force;           /* on side A at t_n, in resultant [F] */
 } ContactRun;
 
 /* Coefficients of a cycle. */
@@ -234,6 +238,7 @@ typedef struct ContactLoop {
     ContactPart *parts; /* by thread (BILLOW_MAX_THREADS) */
     const NearKernels *kernels;
     const MotionKernels *motion_kernels;
+    const SharpKernels *sharp_kernels;
     size_t box_capacity;
     double *room; /* as of State.contact_formed: (w dt)^2 that contact may add at a node in direction d is 1/(d . room
                    * d); xx yy zz xy yz zx (node_count x 6) */
@@ -242,7 +247,6 @@ typedef struct ContactLoop {
     double *around;              /* workspace: mass of the elements at each node (node_count) */
     unsigned char *pulled;       /* of the special nodes: contact_list_pulled (moving - free count) */
     struct EntityLoop *entities; /* contact/entity_loop.h; NULL without */
-    bool restored;               /* within contact_create: edges are sharp as the State says */
     int64_t searches;
     double search_seconds;
     bool out_of_memory;
@@ -271,14 +275,17 @@ double contact_room_left(const Model *m);
 /* All threads: new pairs of groups. */
 void contact_search(ContactLoop *loop, int thread, Team *team);
 
-/* Normals of a thread's share of the triangles at x. */
-void contact_sharp_planes(ContactRun *run, const double *x, int thread, int threads);
+/* Lanes of a group of edges that are sharp, and those that are nearly so. */
+typedef struct ContactSharp {
+    uint16_t now, nearly;
+} ContactSharp;
 
-/* A thread's share of the groups of edges: which are sharp by these normals; after a restart, by the State. */
-void contact_sharp_mark(ContactLoop *loop, ContactRun *run, int thread, int threads);
+/* Those of this cycle, found when first asked for. Any thread, but while positions change. */
+ContactSharp contact_sharp(const ContactLoop *loop, const ContactRun *run, int group);
+bool contact_is_sharp(const ContactLoop *loop, const ContactRun *run, int edge);
 
-/* What follows the surface's shape a little late, by all threads of the team: both, and less often the room. */
-void contact_renew(ContactLoop *loop, int thread, Team *team);
+/* The room follows the surface's shape some cycles late. All threads of the team. */
+void contact_renew_room(ContactLoop *loop, int thread, Team *team);
 
 /* Fills the room of a thread's share of the nodes at State.contact_formed. */
 void contact_fill_room(ContactLoop *loop, int thread, int threads);

@@ -35,6 +35,7 @@ static void fill_lane(ContactLanes *lanes, const ContactItems *items, int k, int
     for (int n = 0; n < items->corners; n++) lanes->node[n][k] = items->node[(ptrdiff_t)items->corners * i + n];
     for (int n = items->corners; n < 3; n++) lanes->node[n][k] = lanes->node[0][k];
     lanes->node[3][k] = items->fourth ? items->fourth[i] : -1;
+    for (int n = 0; n < 2 && items->wing; n++) lanes->node[2 + n][k] = items->wing[2 * (ptrdiff_t)i + n];
     lanes->side[k] = items->side[i];
     lanes->body[k] = items->body[i] == -1 ? nobody : items->body[i];
     lanes->shell[k] = items->shell && items->shell[i] >= 0 ? items->shell[i] : nobody;
@@ -72,10 +73,9 @@ int contact_groups_create(ContactGroups *groups, const ContactItems *items, cons
     groups->skin = memory_alloc(count, sizeof *groups->skin);
     groups->side = memory_alloc(count, 1);
     groups->body = memory_alloc(count, sizeof *groups->body);
-    groups->sharp = memory_alloc(count, sizeof *groups->sharp);
     groups->watched = memory_alloc(count, 1);
     if (!groups->lanes || !groups->start || !groups->node || !groups->low[0] || !groups->box || !groups->radius ||
-        !groups->skin || !groups->side || !groups->body || !groups->sharp || !groups->watched)
+        !groups->skin || !groups->side || !groups->body || !groups->watched)
         return -1;
     for (int g = 0; g < groups->count; g++) {
         int first = g * CONTACT_GROUP, left = items->count - first;
@@ -131,7 +131,6 @@ void contact_groups_free(ContactGroups *groups)
     memory_free(groups->skin);
     memory_free(groups->side);
     memory_free(groups->body);
-    memory_free(groups->sharp);
     memory_free(groups->watched);
     *groups = (ContactGroups){0};
 }

@@ -61,13 +61,14 @@ typedef struct ContactItems {
     const double *radius;
     const int32_t *shell;  /* element; NULL: none */
     const int32_t *fourth; /* fourth node, -1 none; NULL: none */
+    const int32_t *wing;   /* of edges (count x 2): far corners of the triangles at it, or its own node; NULL: none */
 } ContactItems;
 
 /* The items of one group lane by lane, as kernels read them; lanes without an item have side 0. */
 typedef struct ContactLanes {
-    int32_t item[CONTACT_GROUP]; /* ascending, -1 none */
-    int32_t node[4]
-                [CONTACT_GROUP]; /* its nodes; the last: of a triangle that of its quadrilateral that it lacks, or -1 */
+    int32_t item[CONTACT_GROUP];    /* ascending, -1 none */
+    int32_t node[4][CONTACT_GROUP]; /* its nodes, then: of a triangle the one of its quadrilateral that it lacks, or -1;
+                                     * of an edge its wings */
     int32_t side[CONTACT_GROUP];
     int32_t body[CONTACT_GROUP];  /* rigid body; another number for each deformable item */
     int32_t shell[CONTACT_GROUP]; /* element; another number for each item without */
@@ -84,7 +85,6 @@ typedef struct ContactGroups {
     double *skin;            /* largest of its nodes since the last search (count) [L] */
     unsigned char *side;     /* of all its items (count) */
     int32_t *body;           /* of all its items, or CONTACT_MIXED (count) */
-    uint16_t *sharp;         /* lanes whose edges are sharp (count) */
     unsigned char *watched;  /* it is in a pair: its velocity is kept (count) */
 } ContactGroups;
 

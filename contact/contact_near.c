@@ -8,11 +8,15 @@
 #define CANDIDATE_STEPS 12.0
 #define CANDIDATE_THICKNESSES 3.0
 
+/* Lanes of a pair of groups of which nothing was near, sharp or flat. */
+enum { ALL_SHARP = 0xffff };
+
 /* Rounding of what is added up in single precision. */
 #define ROUND_UP (1.0f + 1e-6f)
 
 /* A group of owners and what it may meet. */
 typedef struct NearGroup {
+    const ContactRun *run;
     ContactList *list;
     const ContactGroups *own, *all;
     int group, pairs;
@@ -23,8 +27,24 @@ typedef struct NearGroup {
     bool edges;
 } NearGroup;
 
+/* Of the pairs of edges found those of which one is nearly sharp. If none is found, all are known that are near. */
+static void leave_sharp(const ContactLoop *loop, NearGroup *near, int k, ContactLook *look)
+{
+    ContactKept *kept = &near->kept[k];
+    int count = 0;
+    kept->own = kept->other = ALL_SHARP;
+    if (look->count == 0) return;
+    kept->own = contact_sharp(loop, near->run, near->group).nearly;
+    kept->other = contact_sharp(loop, near->run, near->other[k]).nearly;
+    for (int i = 0; i < look->count; i++) {
+        const ContactNearby *found = &look->found[i];
+        if (((kept->own >> found->owner) | (kept->other >> found->other)) & 1) look->found[count++] = *found;
+    }
+    look->count = count;
+}
+
 /* Looks closely at pair k, of which two points may come nearer by step: at all that may touch and some more. */
-static int look_at(const ContactLoop *loop, const NearGroup *near, int k, double step, ContactPart *part)
+static int look_at(const ContactLoop *loop, NearGroup *near, int k, double step, ContactPart *part)
 {
     ContactLook *look = &part->look;
     ContactKept *kept = &near->kept[k];
@@ -35,19 +55,28 @@ static int look_at(const ContactLoop *loop, const NearGroup *near, int k, double
     look->deepest = near->list->deepest[near->group];
     look->owners = &near->own->lanes[near->group];
     look->others = &near->all->lanes[near->other[k]];
-    look->own_sharp = near->own->sharp[near->group];
-    look->other_sharp = near->all->sharp[near->other[k]];
     look->reach = thickness + look->deepest + (more > step ? more : step) * (1.0 + 1e-5);
     (near->edges ? loop->kernels->edges : loop->kernels->faces)(look);
     near->slack[k] = contact_slack(look->nearest - thickness);
     kept->slack = near->slack[k];
-    kept->own = (uint16_t)look->own_sharp, kept->other = (uint16_t)look->other_sharp;
+    if (near->edges) leave_sharp(loop, near, k, look);
     return contact_candidates_find(&part->sorting, kept, k, look, thickness);
+}
+
+/* Edges of which one is sharp now and was not nearly so at the last look. -1: all are flat. */
+static int sharper(const ContactLoop *loop, const NearGroup *near, int k)
+{
+    const ContactKept *kept = &near->kept[k];
+    if (kept->own == ALL_SHARP && kept->other == ALL_SHARP) return 0;
+    unsigned own = contact_sharp(loop, near->run, near->group).now;
+    unsigned other = contact_sharp(loop, near->run, near->other[k]).now;
+    if (!own && !other) return -1;
+    return (own & ~(unsigned)kept->own) || (other & ~(unsigned)kept->other);
 }
 
 /* Wakes pairs of the group and looks at those of which not all is known that is near. In part->near are those that are
  * awake and have candidates, and the gaps within which these may touch. Returns how many, -1 without memory. */
-static int wake_pairs(const ContactLoop *loop, const NearGroup *near, float before, ContactPart *part)
+static int wake_pairs(const ContactLoop *loop, NearGroup *near, float before, ContactPart *part)
 {
     ContactWatch watch = {.own = near->own,
                           .others = near->all,
@@ -56,7 +85,6 @@ static int wake_pairs(const ContactLoop *loop, const NearGroup *near, float befo
                           .longer = near->longer,
                           .least = (float)near->own->radius[near->group],
                           .deepest = near->deepest};
-    const unsigned own = near->own->sharp[near->group];
     int some = 0;
     part->sorting.count = 0;
     for (int first = 0; first < near->pairs; first += CONTACT_GROUP) {
@@ -67,13 +95,13 @@ static int wake_pairs(const ContactLoop *loop, const NearGroup *near, float befo
             __builtin_prefetch(near->kept + first + __builtin_ctz(left));
         for (; awake; awake &= awake - 1) {
             int k = first + __builtin_ctz(awake);
-            unsigned other = near->all->sharp[near->other[k]];
             ContactKept *kept = &near->kept[k];
-            if (near->edges && !own && !other) continue; /* until an edge is sharp */
+            int changed = near->edges ? sharper(loop, near, k) : 0;
+            if (changed < 0) continue; /* until an edge is sharp */
             double thickness = near->own->radius[near->group] + near->all->radius[near->other[k]];
             float step = (float)contact_ahead((double)(speed[k - first] * near->longer), thickness) * ROUND_UP;
             float gap = contact_kept_way(kept, near->slack[k]) + step;
-            bool known = kept->own == own && kept->other == other && gap + near->deepest <= kept->within;
+            bool known = !changed && gap + near->deepest <= kept->within;
             if (!known && look_at(loop, near, k, (double)step, part)) return -1;
             if (kept->slot != CONTACT_NO_SLOT)
                 part->near[some++] = (ContactAwake){.pair = k, .gap = (known ? gap : step) * ROUND_UP};
@@ -84,7 +112,7 @@ static int wake_pairs(const ContactLoop *loop, const NearGroup *near, float befo
 
 /* Wakes pairs, brings the group's candidates up to date, and sets the gaps within which those of each slot may touch.
  * Returns whether some may, -1 without memory. */
-static int renew_candidates(const ContactLoop *loop, const NearGroup *near, ContactPart *part)
+static int renew_candidates(const ContactLoop *loop, NearGroup *near, ContactPart *part)
 {
     ContactCandidates *all = &near->list->candidates[near->group];
     if (memory_reserve((void **)&part->near, &part->near_capacity, (size_t)near->pairs + 1, sizeof *part->near))
@@ -114,6 +142,15 @@ static int merge_memories(const ContactList *list, int owner, int32_t *other, in
     return count;
 }
 
+/* Of the others of a flat edge those that are sharp. Returns how many. */
+static int keep_sharp(const ContactLoop *loop, const ContactRun *run, int32_t *other, int count)
+{
+    int kept = 0;
+    for (int i = 0; i < count; i++)
+        if (contact_is_sharp(loop, run, other[i])) other[kept++] = other[i];
+    return kept;
+}
+
 static bool remembers(const ContactList *list, const ContactLanes *lanes)
 {
     for (int i = 0; i < CONTACT_GROUP && lanes->item[i] >= 0; i++)
@@ -127,6 +164,7 @@ static int list_others(const ContactLoop *loop, const NearGroup *near, bool some
 {
     const ContactCandidates *all = &near->list->candidates[near->group];
     const ContactLanes *lanes = &near->own->lanes[near->group];
+    unsigned sharp = near->edges && some ? contact_sharp(loop, near->run, near->group).now : ~0u;
     int count = 0;
     if (memory_reserve((void **)&part->other, &part->other_capacity,
                        (size_t)(all->first[CONTACT_GROUP] + CONTACT_GROUP * CONTACT_SLOTS) + CONTACT_GROUP,
@@ -142,6 +180,7 @@ static int list_others(const ContactLoop *loop, const NearGroup *near, bool some
             found = loop->kernels->pick(all->gap + first, all->slot + first, all->item + first,
                                         all->first[l + 1] - first, part->limit, deep, other);
         }
+        if (!(sharp >> l & 1)) found = keep_sharp(loop, near->run, other, found);
         if (near->list->held[item]) found = merge_memories(near->list, item, other, found);
         count += found;
     }
@@ -155,7 +194,8 @@ void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group
     ContactList *list = edges ? &run->edges : &run->faces;
     ContactPart *part = &loop->parts[thread];
     int32_t first = list->start[group];
-    NearGroup near = {.list = list,
+    NearGroup near = {.run = run,
+                      .list = list,
                       .own = edges ? &run->lines : &run->nodes,
                       .all = edges ? &run->lines : &run->triangles,
                       .group = group,

@@ -5,6 +5,9 @@
 #include "contact/contact_pairs.h"
 #include "solver/vector3.h"
 
+/* Cycles from room to room. */
+enum { ROOM_CYCLES = 16 };
+
 /* Components xx yy zz xy yz zx of a symmetric matrix. */
 static void add_square(double *sum, const double n[3], double weight)
 {
@@ -84,4 +87,27 @@ void contact_fill_room(ContactLoop *loop, int thread, int threads)
         for (int k = 0; k < 6; k++) room[k] = scale * room[k] + (k < 3 ? rest : 0.0);
         invert(room);
     }
+}
+
+/* Each thread its share of the nodes. */
+static void keep_positions(ContactLoop *loop, int thread, int threads)
+{
+    int32_t first = contact_first_of(loop->model->node_count, thread, threads),
+            end = contact_first_of(loop->model->node_count, thread + 1, threads);
+    memcpy(loop->state->contact_formed + 3 * (ptrdiff_t)first, loop->state->x + 3 * (ptrdiff_t)first,
+           3 * (size_t)(end - first) * sizeof(double));
+}
+
+void contact_renew_room(ContactLoop *loop, int thread, Team *team)
+{
+    ContactClock *clock = loop->state->contact;
+    int threads = team_size(team);
+    if (clock->started && clock->unseen < ROOM_CYCLES) return;
+    keep_positions(loop, thread, threads);
+    team_barrier(team); /* all have read the clock, too */
+    if (thread == 0) {
+        clock->started = 1;
+        clock->unseen = 0;
+    }
+    contact_fill_room(loop, thread, threads);
 }

@@ -74,25 +74,35 @@ static void box_distances(const LaneBox *box, const LaneArray *low, const LaneAr
     }
 }
 
+static void close_box(LaneBox *box, const Lanes low[3], const Lanes high[3])
+{
+    for (int i = 0; i < 3; i++) {
+        box->low[i] = lanes_least(low[i]);
+        box->high[i] = lanes_largest(high[i]);
+    }
+}
+
 static void load_triangles(const ContactLook *look, const double *origin, TriangleLanes *t)
 {
     const ContactLanes *lanes = look->others;
-    for (int i = 0; i < 3; i++) {
-        Lanes low = lanes_of(FLT_MAX), high = lanes_of(-FLT_MAX);
-        FOR_LANES(r)
-        {
-            Lanes p = lanes_gather(look->x + i, lanes->node[0] + r, origin[i]);
-            Lanes q = lanes_gather(look->x + i, lanes->node[1] + r, origin[i]);
-            Lanes s = lanes_gather(look->x + i, lanes->node[2] + r, origin[i]);
-            lanes_store(&t->corner[i], r, p);
-            lanes_store(&t->a[i], r, q - p);
-            lanes_store(&t->b[i], r, s - p);
-            low = lanes_smaller(lanes_smaller(p, q), lanes_smaller(s, low));
-            high = lanes_larger(lanes_larger(p, q), lanes_larger(s, high));
+    Lanes low[3], high[3];
+    FOR_LANES(r)
+    {
+        Lanes p[3], q[3], s[3];
+        lanes_points(look->x, lanes->node[0] + r, origin, p);
+        lanes_points(look->x, lanes->node[1] + r, origin, q);
+        lanes_points(look->x, lanes->node[2] + r, origin, s);
+        for (int i = 0; i < 3; i++) {
+            lanes_store(&t->corner[i], r, p[i]);
+            lanes_store(&t->a[i], r, q[i] - p[i]);
+            lanes_store(&t->b[i], r, s[i] - p[i]);
+            Lanes least = lanes_smaller(lanes_smaller(p[i], q[i]), s[i]);
+            Lanes most = lanes_larger(lanes_larger(p[i], q[i]), s[i]);
+            low[i] = r == 0 ? least : lanes_smaller(low[i], least);
+            high[i] = r == 0 ? most : lanes_larger(high[i], most);
         }
-        t->box.low[i] = lanes_least(low);
-        t->box.high[i] = lanes_largest(high);
     }
+    close_box(&t->box, low, high);
 }
 
 static void measure_triangles(TriangleLanes *t)
@@ -219,12 +229,15 @@ static void near_faces(ContactLook *look)
     load_triangles(look, origin, &t);
     measure_triangles(&t);
     sort_sides(look->others, &search);
-    for (int i = 0; i < 3; i++) FOR_LANES(r)
-        {
-            Lanes p = lanes_gather(look->x + i, look->owners->node[0] + r, origin[i]);
-            extent = lanes_larger(extent, lanes_absolute(p));
-            lanes_store(&point[i], r, p);
+    FOR_LANES(r)
+    {
+        Lanes p[3];
+        lanes_points(look->x, look->owners->node[0] + r, origin, p);
+        for (int i = 0; i < 3; i++) {
+            extent = lanes_larger(extent, lanes_absolute(p[i]));
+            lanes_store(&point[i], r, p[i]);
         }
+    }
     double margin = MARGIN * (double)larger(box_extent(&t.box), lanes_largest(extent));
     box_distances(&t.box, point, point, &search.off);
     for (int k = 0; k < LANES; k++) {
@@ -244,23 +257,23 @@ static void near_faces(ContactLook *look)
 
 static void load_edges(const ContactLook *look, const ContactLanes *lanes, const double *origin, EdgeLanes *e)
 {
-    for (int i = 0; i < 3; i++) {
-        Lanes lowest = lanes_of(FLT_MAX), highest = lanes_of(-FLT_MAX);
-        FOR_LANES(r)
-        {
-            Lanes p = lanes_gather(look->x + i, lanes->node[0] + r, origin[i]);
-            Lanes q = lanes_gather(look->x + i, lanes->node[1] + r, origin[i]);
-            Lanes low = lanes_smaller(p, q), high = lanes_larger(p, q);
-            lanes_store(&e->start[i], r, p);
-            lanes_store(&e->along[i], r, q - p);
+    Lanes lowest[3], highest[3];
+    FOR_LANES(r)
+    {
+        Lanes p[3], q[3];
+        lanes_points(look->x, lanes->node[0] + r, origin, p);
+        lanes_points(look->x, lanes->node[1] + r, origin, q);
+        for (int i = 0; i < 3; i++) {
+            Lanes low = lanes_smaller(p[i], q[i]), high = lanes_larger(p[i], q[i]);
+            lanes_store(&e->start[i], r, p[i]);
+            lanes_store(&e->along[i], r, q[i] - p[i]);
             lanes_store(&e->low[i], r, low);
             lanes_store(&e->high[i], r, high);
-            lowest = lanes_smaller(lowest, low);
-            highest = lanes_larger(highest, high);
+            lowest[i] = r == 0 ? low : lanes_smaller(lowest[i], low);
+            highest[i] = r == 0 ? high : lanes_larger(highest[i], high);
         }
-        e->box.low[i] = lanes_least(lowest);
-        e->box.high[i] = lanes_largest(highest);
     }
+    close_box(&e->box, lowest, highest);
     FOR_LANES(r)
     {
         Lanes x = lanes_load(&e->along[0], r), y = lanes_load(&e->along[1], r), z = lanes_load(&e->along[2], r);
@@ -303,8 +316,7 @@ ALWAYS_INLINE Lanes edge_distances(const EdgeLanes *e, int i, const EdgeLanes *f
     return lanes_larger(lanes_larger(one, two) - 2e-6f * (rr + uu + ww), lanes_of(0.0f));
 }
 
-/* Within one group each pair is looked at once. Two edges neither of which is sharp count for the least distance only:
- * they may be so a few cycles later. */
+/* Within one group each pair is looked at once. */
 static void look_from_edge(ContactLook *look, Search *search, const EdgeLanes *e, const EdgeLanes *f, int k)
 {
     const ContactLanes *owners = look->owners, *others = look->others;
@@ -320,7 +332,6 @@ static void look_from_edge(ContactLook *look, Search *search, const EdgeLanes *e
         lanes_store(&square, r, lanes_replace(edge_distances(e, k, f, r), lanes_out(meets, r), FLT_MAX));
     }
     take_best(search, &square);
-    if (!(look->own_sharp >> k & 1u)) meets &= look->other_sharp;
     note(look, k, meets & items_within(&square, search->limit.at[k]), &square);
 }
 

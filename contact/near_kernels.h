@@ -13,14 +13,13 @@ typedef struct ContactNearby {
 /* Two groups. */
 typedef struct ContactLook {
     const ContactLanes *owners, *others;
-    const double *x;                 /* positions now */
-    const double *depth;             /* how much farther each node looks (node_count) [L] */
-    double deepest;                  /* the largest depth of the owners; for edges 0 [L] */
-    unsigned own_sharp, other_sharp; /* lanes of edges at which the surface is turned: one of a pair must be */
-    double reach;                    /* pairs nearer than this are found [L] */
-    int count;                       /* of pairs found */
-    double margin;                   /* what rounding may have added to distances [L] */
-    double nearest;                  /* no pair of them is nearer; DBL_MAX without a pair that may meet */
+    const double *x;     /* positions now */
+    const double *depth; /* how much farther each node looks (node_count) [L] */
+    double deepest;      /* the largest depth of the owners; for edges 0 [L] */
+    double reach;        /* pairs nearer than this are found [L] */
+    int count;           /* of pairs found */
+    double margin;       /* what rounding may have added to distances [L] */
+    double nearest;      /* no pair of them is nearer; DBL_MAX without a pair that may meet */
     ContactNearby found[CONTACT_GROUP * CONTACT_GROUP];
 } ContactLook;
 

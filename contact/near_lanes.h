@@ -46,7 +46,7 @@ ALWAYS_INLINE void lanes_store(LaneArray *to, int r, Lanes value)
 }
 
 /* lanes_equal, lanes_below (a <= b): sets of lanes; lanes_replace: value in the lanes of a set.
- * lanes_gather: components of nodes less an origin, from[3 node[lane]]. */
+ * lanes_points: x y z of nodes less an origin, each node loaded as a whole: gathers are slower. */
 #if BILLOW_KERNEL_LEVEL >= 4
 ALWAYS_INLINE Lanes lanes_larger(Lanes a, Lanes b)
 {
@@ -72,14 +72,25 @@ ALWAYS_INLINE Lanes lanes_replace(Lanes a, unsigned set, float value)
 {
     return (Lanes)_mm512_mask_blend_ps((__mmask16)set, (__m512)a, _mm512_set1_ps(value));
 }
-ALWAYS_INLINE Lanes lanes_gather(const double *from, const int32_t *node, double origin)
+ALWAYS_INLINE void lanes_points(const double *x, const int32_t *node, const double origin[3], Lanes point[3])
 {
-    __m512i n = _mm512_loadu_si512(node), place = _mm512_add_epi32(n, _mm512_add_epi32(n, n));
-    __m512d zero = _mm512_set1_pd(origin), low, high;
-    low = _mm512_i32gather_pd(_mm512_castsi512_si256(place), from, 8);
-    high = _mm512_i32gather_pd(_mm512_extracti64x4_epi64(place, 1), from, 8);
-    __m256 first = _mm512_cvtpd_ps(_mm512_sub_pd(low, zero)), second = _mm512_cvtpd_ps(_mm512_sub_pd(high, zero));
-    return (Lanes)_mm512_insertf32x8(_mm512_castps256_ps512(first), second, 1);
+    const __m256i xyz = _mm256_setr_epi64x(-1, -1, -1, 0);
+    const __m256d zero = _mm256_maskload_pd(origin, xyz);
+    __m512 row[4]; /* x y z 0 of nodes k, 4 + k, 8 + k, 12 + k */
+    for (int k = 0; k < 4; k++) {
+        __m128 p[4];
+        for (int i = 0; i < 4; i++)
+            p[i] = _mm256_cvtpd_ps(_mm256_sub_pd(_mm256_maskload_pd(x + 3 * (ptrdiff_t)node[4 * i + k], xyz), zero));
+        __m256 low = _mm256_set_m128(p[1], p[0]), high = _mm256_set_m128(p[3], p[2]);
+        row[k] = _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+    }
+    __m512d a = _mm512_castps_pd(_mm512_unpacklo_ps(row[0], row[1])),
+            b = _mm512_castps_pd(_mm512_unpacklo_ps(row[2], row[3])),
+            c = _mm512_castps_pd(_mm512_unpackhi_ps(row[0], row[1])),
+            d = _mm512_castps_pd(_mm512_unpackhi_ps(row[2], row[3]));
+    point[0] = (Lanes)_mm512_unpacklo_pd(a, b);
+    point[1] = (Lanes)_mm512_unpackhi_pd(a, b);
+    point[2] = (Lanes)_mm512_unpacklo_pd(c, d);
 }
 ALWAYS_INLINE float lanes_least(Lanes a)
 {
@@ -117,14 +128,24 @@ ALWAYS_INLINE Lanes lanes_replace(Lanes a, unsigned set, float value)
     __m256i mask = _mm256_cmpeq_epi32(_mm256_and_si256(all, bit), bit);
     return (Lanes)_mm256_blendv_ps((__m256)a, _mm256_set1_ps(value), _mm256_castsi256_ps(mask));
 }
-ALWAYS_INLINE Lanes lanes_gather(const double *from, const int32_t *node, double origin)
+ALWAYS_INLINE void lanes_points(const double *x, const int32_t *node, const double origin[3], Lanes point[3])
 {
-    __m256i n = _mm256_loadu_si256((const void *)node), place = _mm256_add_epi32(n, _mm256_add_epi32(n, n));
-    __m256d zero = _mm256_set1_pd(origin);
-    __m256d low = _mm256_i32gather_pd(from, _mm256_castsi256_si128(place), 8);
-    __m256d high = _mm256_i32gather_pd(from, _mm256_extracti128_si256(place, 1), 8);
-    __m128 first = _mm256_cvtpd_ps(_mm256_sub_pd(low, zero)), second = _mm256_cvtpd_ps(_mm256_sub_pd(high, zero));
-    return (Lanes)_mm256_set_m128(second, first);
+    const __m256i xyz = _mm256_setr_epi64x(-1, -1, -1, 0);
+    const __m256d zero = _mm256_maskload_pd(origin, xyz);
+    __m256 row[4]; /* x y z 0 of nodes k and 4 + k */
+    for (int k = 0; k < 4; k++) {
+        __m128 p[2];
+        for (int i = 0; i < 2; i++)
+            p[i] = _mm256_cvtpd_ps(_mm256_sub_pd(_mm256_maskload_pd(x + 3 * (ptrdiff_t)node[4 * i + k], xyz), zero));
+        row[k] = _mm256_set_m128(p[1], p[0]);
+    }
+    __m256d a = _mm256_castps_pd(_mm256_unpacklo_ps(row[0], row[1])),
+            b = _mm256_castps_pd(_mm256_unpacklo_ps(row[2], row[3])),
+            c = _mm256_castps_pd(_mm256_unpackhi_ps(row[0], row[1])),
+            d = _mm256_castps_pd(_mm256_unpackhi_ps(row[2], row[3]));
+    point[0] = (Lanes)_mm256_unpacklo_pd(a, b);
+    point[1] = (Lanes)_mm256_unpackhi_pd(a, b);
+    point[2] = (Lanes)_mm256_unpacklo_pd(c, d);
 }
 #else
 ALWAYS_INLINE Lanes lanes_larger(Lanes a, Lanes b)
@@ -154,11 +175,13 @@ ALWAYS_INLINE Lanes lanes_replace(Lanes a, unsigned set, float value)
     __m128i mask = _mm_cmpeq_epi32(_mm_and_si128(all, bit), bit);
     return (Lanes)_mm_blendv_ps((__m128)a, _mm_set1_ps(value), _mm_castsi128_ps(mask));
 }
-ALWAYS_INLINE Lanes lanes_gather(const double *from, const int32_t *node, double origin)
+ALWAYS_INLINE void lanes_points(const double *x, const int32_t *node, const double origin[3], Lanes point[3])
 {
-    Lanes to;
-    for (int k = 0; k < NEAR_WIDTH; k++) to[k] = (float)(from[3 * (ptrdiff_t)node[k]] - origin);
-    return to;
+    for (int i = 0; i < 3; i++) {
+        Lanes of_axis = {0};
+        for (int k = 0; k < NEAR_WIDTH; k++) of_axis[k] = (float)(x[3 * (ptrdiff_t)node[k] + i] - origin[i]);
+        point[i] = of_axis;
+    }
 }
 #endif
 

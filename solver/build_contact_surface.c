@@ -321,8 +321,6 @@ int build_contact_surfaces(Builder *b)
         c->thickest = edges ? 2.0 * triangle : node + triangle;
         if (node + triangle > c->thickest) c->thickest = node + triangle;
         if (edges && (make_edges(b, c) || list_edges(b, c))) return -1;
-        c->first_edge = m->contact_edge_size;
-        m->contact_edge_size += (size_t)c->edge_count;
         c->first_memory = m->contact_memory_size;
         c->memory_capacity = MEMORY_BY_NODE * (c->node_count + c->edge_count) + 1;
         m->contact_memory_size += (size_t)c->memory_capacity;

@@ -243,7 +243,6 @@ typedef struct Model {
     int entity_count;
     ContactEntity *entities;    /* contact/contact_entity.h */
     size_t entity_probe_count;  /* of all entities together */
-    size_t contact_edge_size;   /* entries of State.contact_sharp */
     size_t contact_memory_size; /* entries of State.contact_memory */
 
     ImplicitElements implicit;

@@ -24,7 +24,6 @@ static size_t lay_out_contact(const Model *model, State *state, unsigned char *b
     state->contact = take(base, &used, sizeof *state->contact);
     state->contact_formed = take(base, &used, 3 * nodes * sizeof *state->contact_formed);
     state->contact_load = take(base, &used, 2 * nodes * sizeof *state->contact_load);
-    state->contact_sharp = take(base, &used, model->contact_edge_size);
     state->contact_memory = take(base, &used, model->contact_memory_size * sizeof *state->contact_memory);
     state->entity_memory = take(base, &used, model->entity_probe_count * sizeof *state->entity_memory);
     state->contact_memories = take(base, &used, (size_t)model->contact_count * sizeof *state->contact_memories);

@@ -13,9 +13,8 @@
 typedef struct ContactClock {
     double half;        /* contact energy up to the half step after t_n */
     double longer;      /* the step that contact reckons with, eq. C4b */
-    int64_t started;    /* 1 once the next two have begun */
-    int64_t unseen;     /* cycles since the last look at which edges are sharp */
-    int64_t looks;      /* such looks since contact_formed */
+    int64_t started;    /* 1 once the next has begun */
+    int64_t unseen;     /* cycles since contact_formed */
     int64_t fast, lost; /* pairs that met faster than a thickness in a step; that went too deep and were let go */
     int64_t fast_node, lost_node; /* user's ids of the first nodes, 0 none */
     double fast_time, lost_time;
@@ -93,7 +92,6 @@ typedef struct State {
     ContactClock *contact;     /* (1 if the model has contact) */
     double *contact_formed;    /* positions of which the room of nodes is, eq. C12 (node_count x 3) [L] */
     double *contact_load; /* loads of each node by its contacts, eq. C6, and by those at a limit (node_count x 2) */
-    unsigned char *contact_sharp;  /* edges that meet all others, at the last look (Model.contact_edge_size) */
     ContactMemory *contact_memory; /* pairs in contact, as of the last cycle written (Model.contact_memory_size) */
     ContactMemory *entity_memory;  /* of the probes of all entities (Model.entity_probe_count) */
     int32_t *contact_memories;     /* how many of each interface (contact_count) */
