@@ -65,16 +65,14 @@ int contact_groups_create(ContactGroups *groups, const ContactItems *items, cons
     groups->lanes = memory_alloc(count, sizeof *groups->lanes);
     groups->start = memory_alloc(count, sizeof *groups->start);
     groups->node = memory_alloc((size_t)items->count * (size_t)items->corners + 1, sizeof *groups->node);
-    groups->low[0] = memory_alloc(6 * count, sizeof *groups->low[0]);
-    for (int k = 1; k < 6 && groups->low[0]; k++)
-        *(k < 3 ? &groups->low[k] : &groups->high[k - 3]) = groups->low[0] + (size_t)k * count;
+    groups->speeds = memory_alloc(count, sizeof *groups->speeds);
     groups->box = memory_alloc(count, sizeof *groups->box);
     groups->radius = memory_alloc(count, sizeof *groups->radius);
     groups->skin = memory_alloc(count, sizeof *groups->skin);
     groups->side = memory_alloc(count, 1);
     groups->body = memory_alloc(count, sizeof *groups->body);
     groups->watched = memory_alloc(count, 1);
-    if (!groups->lanes || !groups->start || !groups->node || !groups->low[0] || !groups->box || !groups->radius ||
+    if (!groups->lanes || !groups->start || !groups->node || !groups->speeds || !groups->box || !groups->radius ||
         !groups->skin || !groups->side || !groups->body || !groups->watched)
         return -1;
     for (int g = 0; g < groups->count; g++) {
@@ -125,7 +123,7 @@ void contact_groups_free(ContactGroups *groups)
     memory_free(groups->lanes);
     memory_free(groups->start);
     memory_free(groups->node);
-    memory_free(groups->low[0]);
+    memory_free(groups->speeds);
     memory_free(groups->box);
     memory_free(groups->radius);
     memory_free(groups->skin);

@@ -74,18 +74,24 @@ typedef struct ContactLanes {
     int32_t shell[CONTACT_GROUP]; /* element; another number for each item without */
 } ContactLanes;
 
+/* Largest velocities of a group's nodes against and along the axes, rounded up; the fourths are 0 [L/T]. */
+typedef struct ContactSpeeds {
+    _Alignas(32) float down[4];
+    float up[4];
+} ContactSpeeds;
+
 typedef struct ContactGroups {
     int count;
-    ContactLanes *lanes;     /* (count) */
-    int32_t *start;          /* of each group in node (count + 1) */
-    int32_t *node;           /* nodes of each group, each once */
-    float *low[3], *high[3]; /* boxes around velocities now, rounded outward; low[0] owns all (count) [L/T] */
-    ContactBox *box;         /* around its nodes at the last search (count) [L] */
-    double *radius;          /* largest of its items (count) [L] */
-    double *skin;            /* largest of its nodes since the last search (count) [L] */
-    unsigned char *side;     /* of all its items (count) */
-    int32_t *body;           /* of all its items, or CONTACT_MIXED (count) */
-    unsigned char *watched;  /* it is in a pair: its velocity is kept (count) */
+    ContactLanes *lanes;    /* (count) */
+    int32_t *start;         /* of each group in node (count + 1) */
+    int32_t *node;          /* nodes of each group, each once */
+    ContactSpeeds *speeds;  /* now (count) */
+    ContactBox *box;        /* around its nodes at the last search (count) [L] */
+    double *radius;         /* largest of its items (count) [L] */
+    double *skin;           /* largest of its nodes since the last search (count) [L] */
+    unsigned char *side;    /* of all its items (count) */
+    int32_t *body;          /* of all its items, or CONTACT_MIXED (count) */
+    unsigned char *watched; /* it is in a pair: its velocity is kept (count) */
 } ContactGroups;
 
 /* Groups of items in an order by contact_patches. 0, or -1 without memory. */
@@ -108,8 +114,8 @@ bool contact_groups_meet(const ContactGroups *a, int g, const ContactGroups *b, 
 static inline void contact_velocity_keep(ContactGroups *groups, int g, const double *low, const double *high)
 {
     for (int k = 0; k < 3; k++) {
-        groups->low[k][g] = (float)(low[k] - 1e-6 * fabs(low[k]));
-        groups->high[k][g] = (float)(high[k] + 1e-6 * fabs(high[k]));
+        groups->speeds[g].down[k] = (float)(1e-6 * fabs(low[k]) - low[k]);
+        groups->speeds[g].up[k] = (float)(high[k] + 1e-6 * fabs(high[k]));
     }
 }
 

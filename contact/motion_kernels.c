@@ -70,7 +70,7 @@ static void follow(ContactGroups *groups, const double *v, int first, int end)
     }
 }
 
-/* Up to NEAR_WIDTH numbers, of an array or of its given places; the other lanes are of no use. */
+/* Up to NEAR_WIDTH numbers of an array; the other lanes are of no use. */
 #if BILLOW_KERNEL_LEVEL >= 4
 ALWAYS_INLINE Lanes some_load(const float *from, int count)
 {
@@ -79,11 +79,6 @@ ALWAYS_INLINE Lanes some_load(const float *from, int count)
 ALWAYS_INLINE void some_store(float *to, int count, Lanes value)
 {
     _mm512_mask_storeu_ps(to, (__mmask16)((1u << count) - 1u), (__m512)value);
-}
-ALWAYS_INLINE Lanes some_pick(const float *from, const int32_t *place, int count)
-{
-    __m512i at = _mm512_maskz_loadu_epi32((__mmask16)((1u << count) - 1u), place);
-    return (Lanes)_mm512_i32gather_ps(at, from, 4);
 }
 #else
 ALWAYS_INLINE Lanes some_load(const float *from, int count)
@@ -96,27 +91,24 @@ ALWAYS_INLINE void some_store(float *to, int count, Lanes value)
 {
     for (int k = 0; k < count; k++) to[k] = value[k];
 }
-ALWAYS_INLINE Lanes some_pick(const float *from, const int32_t *place, int count)
-{
-    Lanes value = {0};
-    for (int k = 0; k < count; k++) value[k] = from[place[k]];
-    return value;
-}
 #endif
 
 static unsigned wake(const ContactWatch *watch, const int32_t *other, float *slack, int count, float *speed)
 {
     const ContactGroups *own = watch->own, *all = watch->others;
+    const __m128 down = _mm_load_ps(own->speeds[watch->group].down), up = _mm_load_ps(own->speeds[watch->group].up);
     unsigned awake = 0;
     for (int r = 0; r < count; r += NEAR_WIDTH) {
         int some = count - r < NEAR_WIDTH ? count - r : NEAR_WIDTH;
-        Lanes square = lanes_of(0.0f), left = some_load(slack + r, some);
-        for (int i = 0; i < 3; i++) {
-            Lanes up = own->high[i][watch->group] - some_pick(all->low[i], other + r, some);
-            Lanes down = some_pick(all->high[i], other + r, some) - own->low[i][watch->group];
-            up = lanes_larger(up, down);
-            square += up * up;
+        Lanes axis[3];
+        __m128 closing[NEAR_WIDTH];
+        for (int k = 0; k < NEAR_WIDTH; k++) {
+            const ContactSpeeds *speeds = &all->speeds[other[r + (k < some ? k : 0)]];
+            closing[k] =
+                _mm_max_ps(_mm_add_ps(up, _mm_load_ps(speeds->down)), _mm_add_ps(down, _mm_load_ps(speeds->up)));
         }
+        lanes_turn(closing, axis);
+        Lanes square = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2], left = some_load(slack + r, some);
         /* rounded towards what is closer */
         Lanes fast = lanes_root(square) * (1.0f + 2e-6f), way = fast * watch->before;
         left -= way + 3e-7f * (lanes_absolute(left) + way);

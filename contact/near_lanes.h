@@ -46,7 +46,7 @@ ALWAYS_INLINE void lanes_store(LaneArray *to, int r, Lanes value)
 }
 
 /* lanes_equal, lanes_below (a <= b): sets of lanes; lanes_replace: value in the lanes of a set.
- * lanes_points: x y z of nodes less an origin, each node loaded as a whole: gathers are slower. */
+ * lanes_turn: columns x y z of rows x y z. */
 #if BILLOW_KERNEL_LEVEL >= 4
 ALWAYS_INLINE Lanes lanes_larger(Lanes a, Lanes b)
 {
@@ -72,25 +72,20 @@ ALWAYS_INLINE Lanes lanes_replace(Lanes a, unsigned set, float value)
 {
     return (Lanes)_mm512_mask_blend_ps((__mmask16)set, (__m512)a, _mm512_set1_ps(value));
 }
-ALWAYS_INLINE void lanes_points(const double *x, const int32_t *node, const double origin[3], Lanes point[3])
+ALWAYS_INLINE void lanes_turn(const __m128 row[NEAR_WIDTH], Lanes column[3])
 {
-    const __m256i xyz = _mm256_setr_epi64x(-1, -1, -1, 0);
-    const __m256d zero = _mm256_maskload_pd(origin, xyz);
-    __m512 row[4]; /* x y z 0 of nodes k, 4 + k, 8 + k, 12 + k */
+    __m512 wide[4]; /* rows k, 4 + k, 8 + k, 12 + k */
     for (int k = 0; k < 4; k++) {
-        __m128 p[4];
-        for (int i = 0; i < 4; i++)
-            p[i] = _mm256_cvtpd_ps(_mm256_sub_pd(_mm256_maskload_pd(x + 3 * (ptrdiff_t)node[4 * i + k], xyz), zero));
-        __m256 low = _mm256_set_m128(p[1], p[0]), high = _mm256_set_m128(p[3], p[2]);
-        row[k] = _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+        __m256 low = _mm256_set_m128(row[4 + k], row[k]), high = _mm256_set_m128(row[12 + k], row[8 + k]);
+        wide[k] = _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
     }
-    __m512d a = _mm512_castps_pd(_mm512_unpacklo_ps(row[0], row[1])),
-            b = _mm512_castps_pd(_mm512_unpacklo_ps(row[2], row[3])),
-            c = _mm512_castps_pd(_mm512_unpackhi_ps(row[0], row[1])),
-            d = _mm512_castps_pd(_mm512_unpackhi_ps(row[2], row[3]));
-    point[0] = (Lanes)_mm512_unpacklo_pd(a, b);
-    point[1] = (Lanes)_mm512_unpackhi_pd(a, b);
-    point[2] = (Lanes)_mm512_unpacklo_pd(c, d);
+    __m512d a = _mm512_castps_pd(_mm512_unpacklo_ps(wide[0], wide[1])),
+            b = _mm512_castps_pd(_mm512_unpacklo_ps(wide[2], wide[3])),
+            c = _mm512_castps_pd(_mm512_unpackhi_ps(wide[0], wide[1])),
+            d = _mm512_castps_pd(_mm512_unpackhi_ps(wide[2], wide[3]));
+    column[0] = (Lanes)_mm512_unpacklo_pd(a, b);
+    column[1] = (Lanes)_mm512_unpackhi_pd(a, b);
+    column[2] = (Lanes)_mm512_unpacklo_pd(c, d);
 }
 ALWAYS_INLINE float lanes_least(Lanes a)
 {
@@ -128,24 +123,17 @@ ALWAYS_INLINE Lanes lanes_replace(Lanes a, unsigned set, float value)
     __m256i mask = _mm256_cmpeq_epi32(_mm256_and_si256(all, bit), bit);
     return (Lanes)_mm256_blendv_ps((__m256)a, _mm256_set1_ps(value), _mm256_castsi256_ps(mask));
 }
-ALWAYS_INLINE void lanes_points(const double *x, const int32_t *node, const double origin[3], Lanes point[3])
+ALWAYS_INLINE void lanes_turn(const __m128 row[NEAR_WIDTH], Lanes column[3])
 {
-    const __m256i xyz = _mm256_setr_epi64x(-1, -1, -1, 0);
-    const __m256d zero = _mm256_maskload_pd(origin, xyz);
-    __m256 row[4]; /* x y z 0 of nodes k and 4 + k */
-    for (int k = 0; k < 4; k++) {
-        __m128 p[2];
-        for (int i = 0; i < 2; i++)
-            p[i] = _mm256_cvtpd_ps(_mm256_sub_pd(_mm256_maskload_pd(x + 3 * (ptrdiff_t)node[4 * i + k], xyz), zero));
-        row[k] = _mm256_set_m128(p[1], p[0]);
-    }
-    __m256d a = _mm256_castps_pd(_mm256_unpacklo_ps(row[0], row[1])),
-            b = _mm256_castps_pd(_mm256_unpacklo_ps(row[2], row[3])),
-            c = _mm256_castps_pd(_mm256_unpackhi_ps(row[0], row[1])),
-            d = _mm256_castps_pd(_mm256_unpackhi_ps(row[2], row[3]));
-    point[0] = (Lanes)_mm256_unpacklo_pd(a, b);
-    point[1] = (Lanes)_mm256_unpackhi_pd(a, b);
-    point[2] = (Lanes)_mm256_unpacklo_pd(c, d);
+    __m256 wide[4]; /* rows k and 4 + k */
+    for (int k = 0; k < 4; k++) wide[k] = _mm256_set_m128(row[4 + k], row[k]);
+    __m256d a = _mm256_castps_pd(_mm256_unpacklo_ps(wide[0], wide[1])),
+            b = _mm256_castps_pd(_mm256_unpacklo_ps(wide[2], wide[3])),
+            c = _mm256_castps_pd(_mm256_unpackhi_ps(wide[0], wide[1])),
+            d = _mm256_castps_pd(_mm256_unpackhi_ps(wide[2], wide[3]));
+    column[0] = (Lanes)_mm256_unpacklo_pd(a, b);
+    column[1] = (Lanes)_mm256_unpackhi_pd(a, b);
+    column[2] = (Lanes)_mm256_unpacklo_pd(c, d);
 }
 #else
 ALWAYS_INLINE Lanes lanes_larger(Lanes a, Lanes b)
@@ -175,15 +163,32 @@ ALWAYS_INLINE Lanes lanes_replace(Lanes a, unsigned set, float value)
     __m128i mask = _mm_cmpeq_epi32(_mm_and_si128(all, bit), bit);
     return (Lanes)_mm_blendv_ps((__m128)a, _mm_set1_ps(value), _mm_castsi128_ps(mask));
 }
-ALWAYS_INLINE void lanes_points(const double *x, const int32_t *node, const double origin[3], Lanes point[3])
+ALWAYS_INLINE void lanes_turn(const __m128 row[NEAR_WIDTH], Lanes column[3])
 {
-    for (int i = 0; i < 3; i++) {
-        Lanes of_axis = {0};
-        for (int k = 0; k < NEAR_WIDTH; k++) of_axis[k] = (float)(x[3 * (ptrdiff_t)node[k] + i] - origin[i]);
-        point[i] = of_axis;
-    }
+    __m128 a = _mm_unpacklo_ps(row[0], row[1]), b = _mm_unpacklo_ps(row[2], row[3]);
+    column[0] = (Lanes)_mm_movelh_ps(a, b);
+    column[1] = (Lanes)_mm_movehl_ps(b, a);
+    column[2] = (Lanes)_mm_movelh_ps(_mm_unpackhi_ps(row[0], row[1]), _mm_unpackhi_ps(row[2], row[3]));
 }
 #endif
+
+/* x y z of nodes less an origin. Each node is loaded as a whole: gathers are slower. */
+ALWAYS_INLINE void lanes_points(const double *x, const int32_t *node, const double origin[3], Lanes point[3])
+{
+    __m128 row[NEAR_WIDTH];
+#if BILLOW_KERNEL_LEVEL >= 3
+    const __m256i xyz = _mm256_setr_epi64x(-1, -1, -1, 0);
+    const __m256d zero = _mm256_maskload_pd(origin, xyz);
+    for (int k = 0; k < NEAR_WIDTH; k++)
+        row[k] = _mm256_cvtpd_ps(_mm256_sub_pd(_mm256_maskload_pd(x + 3 * (ptrdiff_t)node[k], xyz), zero));
+#else
+    for (int k = 0; k < NEAR_WIDTH; k++) {
+        const double *at = x + 3 * (ptrdiff_t)node[k];
+        row[k] = _mm_setr_ps((float)(at[0] - origin[0]), (float)(at[1] - origin[1]), (float)(at[2] - origin[2]), 0.0f);
+    }
+#endif
+    lanes_turn(row, point);
+}
 
 /* lanes_pick: from[place[lane]] of the lanes of a set, others are of no use. lanes_pack: stores numbers of the lanes of
  * a set one behind the other, and perhaps anything in the rest of NEAR_WIDTH places; returns how many they are. */
