@@ -9,9 +9,6 @@
 #include "contact/entity_loop.h"
 #include "solver/memory.h"
 
-/* Groups that a thread takes at a time. */
-enum { TURN = 4 };
-
 /* Share of a step by which the step that contact reckons with may fall short of the last one (eq. C4b). */
 #define STEP_FALL 0.1
 
@@ -156,14 +153,15 @@ void contact_forces(ContactLoop *loop, int thread, int threads)
         if (thread == 0) run->asleep = false;
         ContactLaw law = law_of(loop, run, thread);
         int faces = run->faces.group_count, all = faces + run->edges.group_count;
-        /* some groups in turn: neighbouring ones are busy alike, and what a thread asks for they share */
-        for (int k = thread * TURN; k < all; k += threads * TURN)
-            for (int g = k; g < k + TURN && g < all; g++) {
+        for (int k = thread * CONTACT_TURN; k < all; k += threads * CONTACT_TURN) {
+            int end = k + CONTACT_TURN < all ? k + CONTACT_TURN : all;
+            for (int g = k; g < end; g++) contact_wake(loop, run, g >= faces, g < faces ? g : g - faces, thread, g - k);
+            for (int g = k; g < end && !part->failed; g++)
                 if (g < faces)
-                    contact_meet_faces(loop, run, &law, g, thread);
+                    contact_meet_faces(loop, run, &law, g, thread, g - k);
                 else
-                    contact_meet_edges(loop, run, &law, g - faces, thread);
-            }
+                    contact_meet_edges(loop, run, &law, g - faces, thread, g - k);
+        }
     }
     if (loop->entities) entities_push(loop, thread, threads);
 }

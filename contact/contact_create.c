@@ -79,6 +79,7 @@ void contact_free(ContactLoop *loop)
         contact_pairs_free(&loop->parts[k].pairs);
         memory_free(loop->parts[k].force);
         memory_free(loop->parts[k].near);
+        for (int p = 0; p < CONTACT_TURN; p++) memory_free(loop->parts[k].woken[p]);
         memory_free(loop->parts[k].limit);
         contact_sorting_free(&loop->parts[k].sorting);
         memory_free(loop->parts[k].other);

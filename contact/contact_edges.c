@@ -195,7 +195,7 @@ void contact_pass_on(ContactLoop *loop, ContactRun *run)
         }
 }
 
-void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int group, int thread)
+void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int group, int thread, int place)
 {
     ContactList *list = &run->edges;
     ContactPart *part = &loop->parts[thread];
@@ -207,7 +207,7 @@ void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
     passages->count = 0;
     if (list->holds[group]) contact_fetch(list, lanes);
-    contact_find_near(loop, run, true, group, thread, start);
+    contact_find_near(loop, run, true, group, thread, place, start);
     if (part->failed || start[CONTACT_GROUP] == 0) return;
     ContactForce *forces = contact_force_room(part, (size_t)start[CONTACT_GROUP]);
     if (!forces) return;

@@ -260,7 +260,7 @@ static void forget_depths(ContactList *list, const ContactLanes *lanes)
     for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) list->depth[lanes->item[k]] = 0.0;
 }
 
-void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int group, int thread)
+void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int group, int thread, int place)
 {
     ContactList *list = &run->faces;
     ContactPart *part = &loop->parts[thread];
@@ -270,7 +270,7 @@ void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     if (list->holds[group]) contact_fetch(list, lanes);
     *sums = (ContactSums){0};
     list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
-    contact_find_near(loop, run, false, group, thread, start);
+    contact_find_near(loop, run, false, group, thread, place, start);
     list->deepest[group] = 0.0;
     if (part->failed) return;
     if (start[CONTACT_GROUP] == 0) {

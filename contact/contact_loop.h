@@ -180,6 +180,15 @@ typedef struct ContactPull {
     int64_t cycle; /* in which it was formed, ContactLoop.cycle */
 } ContactPull;
 
+/* Groups that a thread takes at a time: neighbouring ones are busy alike, and what a thread asks for they share. */
+enum { CONTACT_TURN = 4 };
+
+/* Pairs of a group in one cycle, a block of CONTACT_GROUP of them. */
+typedef struct ContactWoken {
+    _Alignas(64) float speed[CONTACT_GROUP]; /* how fast each may close [L/T] */
+    unsigned awake;                          /* bits of those that may touch in this step */
+} ContactWoken;
+
 /* A pair of a group that is awake, and the gap within which its candidates may touch [L]. */
 typedef struct ContactAwake {
     int pair;
@@ -196,6 +205,8 @@ typedef struct ContactPart {
     ContactForce *force;
     size_t force_count, force_capacity;
     ContactSorting sorting;
+    ContactWoken *woken[CONTACT_TURN]; /* of the groups of one turn */
+    size_t woken_capacity[CONTACT_TURN];
     ContactAwake *near; /* of one group of owners: pairs that are awake */
     float *limit;       /* of its slots: gaps within which candidates may touch [L] */
     size_t near_capacity, limit_capacity;
@@ -297,13 +308,19 @@ void contact_items(ContactRun *run, ContactItems items[3]);
 unsigned char *contact_list_pulled(const Model *model);
 
 struct ContactLaw;
-void contact_meet_faces(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int group, int thread);
-void contact_meet_edges(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int group, int thread);
+void contact_meet_faces(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int group, int thread,
+                        int place);
+void contact_meet_edges(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int group, int thread,
+                        int place);
+
+/* Which pairs of a group of owners are awake in this cycle. Groups of one turn first, each in a place of its own: what
+ * is known of those awake is on its way then. */
+void contact_wake(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int place);
 
 /* What a group of owners may touch in this step, and what it remembers, ascending (contact/contact_near.c): those of
  * lane k of the group are other[start[k]] to other[start[k + 1]] of the thread's part, which has failed without memory.
  */
-void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread,
+void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int place,
                        int start[CONTACT_GROUP + 1]);
 
 /* Room for more forces of a thread; NULL without memory. */

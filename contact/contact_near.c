@@ -23,6 +23,7 @@ typedef struct NearGroup {
     const int32_t *other; /* of its pairs (pairs), and so on */
     float *slack;
     ContactKept *kept;
+    const ContactWoken *woken; /* blocks of CONTACT_GROUP pairs */
     float longer, deepest;
     bool edges;
 } NearGroup;
@@ -74,32 +75,21 @@ static int sharper(const ContactLoop *loop, const NearGroup *near, int k)
     return (own & ~(unsigned)kept->own) || (other & ~(unsigned)kept->other);
 }
 
-/* Wakes pairs of the group and looks at those of which not all is known that is near. In part->near are those that are
- * awake and have candidates, and the gaps within which these may touch. Returns how many, -1 without memory. */
-static int wake_pairs(const ContactLoop *loop, NearGroup *near, float before, ContactPart *part)
+/* Looks at those of the pairs awake of which not all is known that is near. In part->near are those that have
+ * candidates, and the gaps within which these may touch. Returns how many, -1 without memory. */
+static int look_around(const ContactLoop *loop, NearGroup *near, ContactPart *part)
 {
-    ContactWatch watch = {.own = near->own,
-                          .others = near->all,
-                          .group = near->group,
-                          .before = before,
-                          .longer = near->longer,
-                          .least = (float)near->own->radius[near->group],
-                          .deepest = near->deepest};
     int some = 0;
     part->sorting.count = 0;
     for (int first = 0; first < near->pairs; first += CONTACT_GROUP) {
-        int count = near->pairs - first < CONTACT_GROUP ? near->pairs - first : CONTACT_GROUP;
-        _Alignas(64) float speed[CONTACT_GROUP];
-        unsigned awake = loop->motion_kernels->wake(&watch, near->other + first, near->slack + first, count, speed);
-        for (unsigned left = awake; left; left &= left - 1)
-            __builtin_prefetch(near->kept + first + __builtin_ctz(left));
-        for (; awake; awake &= awake - 1) {
+        const ContactWoken *woken = &near->woken[first / CONTACT_GROUP];
+        for (unsigned awake = woken->awake; awake; awake &= awake - 1) {
             int k = first + __builtin_ctz(awake);
             ContactKept *kept = &near->kept[k];
             int changed = near->edges ? sharper(loop, near, k) : 0;
             if (changed < 0) continue; /* until an edge is sharp */
             double thickness = near->own->radius[near->group] + near->all->radius[near->other[k]];
-            float step = (float)contact_ahead((double)(speed[k - first] * near->longer), thickness) * ROUND_UP;
+            float step = (float)contact_ahead((double)(woken->speed[k - first] * near->longer), thickness) * ROUND_UP;
             float gap = contact_kept_way(kept, near->slack[k]) + step;
             bool known = !changed && gap + near->deepest <= kept->within;
             if (!known && look_at(loop, near, k, (double)step, part)) return -1;
@@ -110,14 +100,14 @@ static int wake_pairs(const ContactLoop *loop, NearGroup *near, float before, Co
     return some;
 }
 
-/* Wakes pairs, brings the group's candidates up to date, and sets the gaps within which those of each slot may touch.
+/* Brings the group's candidates up to date, and sets the gaps within which those of each slot may touch.
  * Returns whether some may, -1 without memory. */
 static int renew_candidates(const ContactLoop *loop, NearGroup *near, ContactPart *part)
 {
     ContactCandidates *all = &near->list->candidates[near->group];
     if (memory_reserve((void **)&part->near, &part->near_capacity, (size_t)near->pairs + 1, sizeof *part->near))
         return -1;
-    int some = wake_pairs(loop, near, (float)loop->step.before, part);
+    int some = look_around(loop, near, part);
     if (some <= 0) return some;
     if (part->sorting.count > 0 && contact_candidates_merge(all, near->kept, near->pairs, &part->sorting)) return -1;
     if (memory_reserve((void **)&part->limit, &part->limit_capacity, (size_t)all->slots + 1, sizeof *part->limit))
@@ -188,7 +178,35 @@ static int list_others(const ContactLoop *loop, const NearGroup *near, bool some
     return 0;
 }
 
-void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread,
+void contact_wake(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int place)
+{
+    ContactList *list = edges ? &run->edges : &run->faces;
+    ContactPart *part = &loop->parts[thread];
+    const ContactGroups *own = edges ? &run->lines : &run->nodes;
+    int32_t first = list->start[group], pairs = list->start[group + 1] - first;
+    size_t blocks = ((size_t)pairs + CONTACT_GROUP - 1) / CONTACT_GROUP;
+    ContactWatch watch = {.own = own,
+                          .others = edges ? &run->lines : &run->triangles,
+                          .group = group,
+                          .before = (float)loop->step.before,
+                          .longer = (float)loop->step.longer,
+                          .least = (float)own->radius[group],
+                          .deepest = (float)list->deepest[group] * ROUND_UP};
+    if (memory_reserve((void **)&part->woken[place], &part->woken_capacity[place], blocks + 1, sizeof **part->woken)) {
+        part->failed = true;
+        return;
+    }
+    for (size_t b = 0; b < blocks; b++) {
+        ContactWoken *woken = &part->woken[place][b];
+        int32_t k = first + (int32_t)b * CONTACT_GROUP, left = list->start[group + 1] - k;
+        woken->awake = loop->motion_kernels->wake(&watch, list->pairs.other + k, list->pairs.slack + k,
+                                                  left < CONTACT_GROUP ? left : CONTACT_GROUP, woken->speed);
+        for (unsigned awake = woken->awake; awake; awake &= awake - 1)
+            __builtin_prefetch(list->pairs.kept + k + __builtin_ctz(awake));
+    }
+}
+
+void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int place,
                        int start[CONTACT_GROUP + 1])
 {
     ContactList *list = edges ? &run->edges : &run->faces;
@@ -203,6 +221,7 @@ void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group
                       .other = list->pairs.other + first,
                       .slack = list->pairs.slack + first,
                       .kept = list->pairs.kept + first,
+                      .woken = part->woken[place],
                       .longer = (float)loop->step.longer,
                       .deepest = (float)list->deepest[group] * ROUND_UP,
                       .edges = edges};
