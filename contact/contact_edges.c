@@ -206,7 +206,6 @@ void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     *sums = (ContactSums){0};
     list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
     passages->count = 0;
-    if (list->holds[group]) contact_fetch(list, lanes);
     contact_find_near(loop, run, true, group, thread, place, start);
     if (part->failed || start[CONTACT_GROUP] == 0) return;
     ContactForce *forces = contact_force_room(part, (size_t)start[CONTACT_GROUP]);

@@ -267,7 +267,6 @@ void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     ContactSums *sums = &list->sums[group];
     const ContactLanes *lanes = &run->nodes.lanes[group];
     int start[CONTACT_GROUP + 1];
-    if (list->holds[group]) contact_fetch(list, lanes);
     *sums = (ContactSums){0};
     list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
     contact_find_near(loop, run, false, group, thread, place, start);

@@ -178,6 +178,14 @@ static int list_others(const ContactLoop *loop, const NearGroup *near, bool some
     return 0;
 }
 
+/* What is known of a pair, and the nodes of its second group. */
+static void ask_for(const ContactList *list, const ContactGroups *others, int32_t pair)
+{
+    const ContactLanes *lanes = &others->lanes[list->pairs.other[pair]];
+    __builtin_prefetch(list->pairs.kept + pair);
+    for (int n = 0; n < 3; n++) __builtin_prefetch(lanes->node[n]);
+}
+
 void contact_wake(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int place)
 {
     ContactList *list = edges ? &run->edges : &run->faces;
@@ -196,13 +204,14 @@ void contact_wake(ContactLoop *loop, ContactRun *run, bool edges, int group, int
         part->failed = true;
         return;
     }
+    if (list->holds[group]) contact_fetch(list, &own->lanes[group]);
     for (size_t b = 0; b < blocks; b++) {
         ContactWoken *woken = &part->woken[place][b];
         int32_t k = first + (int32_t)b * CONTACT_GROUP, left = list->start[group + 1] - k;
         woken->awake = loop->motion_kernels->wake(&watch, list->pairs.other + k, list->pairs.slack + k,
                                                   left < CONTACT_GROUP ? left : CONTACT_GROUP, woken->speed);
         for (unsigned awake = woken->awake; awake; awake &= awake - 1)
-            __builtin_prefetch(list->pairs.kept + k + __builtin_ctz(awake));
+            ask_for(list, watch.others, k + __builtin_ctz(awake));
     }
 }
 
