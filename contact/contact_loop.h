@@ -7,6 +7,7 @@
 #include "contact/contact_candidates.h"
 #include "contact/contact_grid.h"
 #include "contact/contact_motion.h"
+#include "contact/meet_kernels.h"
 #include "contact/motion_kernels.h"
 #include "contact/near_kernels.h"
 #include "elements/kernels.h"
@@ -108,8 +109,23 @@ static inline ContactMemory *contact_recall(const ContactList *list, int owner, 
     return NULL;
 }
 
-/* Memories of a group's owners are asked for before they are needed: they lie far apart. */
-static inline void contact_fetch(const ContactList *list, const ContactLanes *lanes)
+/* The same before the owner's look, when all that is held has a side; the memory is asked for instead of looked at. */
+static inline ContactMemory *contact_ask(const ContactList *list, int owner, int32_t other)
+{
+    const int32_t *partner = list->partner + (ptrdiff_t)owner * CONTACT_SLOTS;
+    for (int k = 0; k < list->held[owner]; k++) {
+        if (partner[k] != other) continue;
+        ContactMemory *m = contact_slot(list, owner, k);
+        __builtin_prefetch(m);
+        __builtin_prefetch((const char *)(m + 1) - 1);
+        return m;
+    }
+    return NULL;
+}
+
+/* Memories of a group's owners are asked for before they are needed: they lie far apart. GCC takes a function that only
+ * asks for memory as one that does nothing, unless it is dissolved first. */
+__attribute__((always_inline)) static inline void contact_fetch(const ContactList *list, const ContactLanes *lanes)
 {
     for (int i = 0; i < CONTACT_GROUP && lanes->item[i] >= 0; i++)
         for (int k = 0; k < list->held[lanes->item[i]]; k++) {
@@ -198,6 +214,9 @@ typedef struct ContactPart {
     int32_t *other; /* what each owner of a group may touch in this step and what it remembers */
     size_t other_capacity;
     ContactLook look;
+    MeetFaces *faces; /* pairs of one group of owners in lanes */
+    MeetEdges *edges;
+    size_t faces_capacity, edges_capacity;
     ContactPull *pull; /* what its pairs have asked for (node_count) */
     bool deep;         /* a group is deeper than allowed: a search is due */
     bool failed;       /* no memory */
@@ -234,6 +253,7 @@ typedef struct ContactLoop {
     ContactPart *parts; /* by thread (BILLOW_MAX_THREADS) */
     const NearKernels *kernels;
     const MotionKernels *motion_kernels;
+    const MeetKernels *meet_kernels;
     size_t box_capacity;
     double *room; /* as of State.contact_formed: (w dt)^2 that contact may add at a node in direction d is 1/(d . room
                    * d); xx yy zz xy yz zx (node_count x 6) */
