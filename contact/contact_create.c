@@ -83,6 +83,8 @@ void contact_free(ContactLoop *loop)
         memory_free(loop->parts[k].limit);
         contact_sorting_free(&loop->parts[k].sorting);
         memory_free(loop->parts[k].other);
+        memory_free(loop->parts[k].faces);
+        memory_free(loop->parts[k].edges);
         memory_free(loop->parts[k].pull);
         memory_free(loop->parts[k].found.item);
         memory_free(loop->parts[k].place);
@@ -240,6 +242,7 @@ static void choose_kernels(ContactLoop *loop)
     loop->kernels = level == 4 ? &near_kernels_v4 : level == 3 ? &near_kernels_v3 : &near_kernels_v2;
     loop->motion_kernels = level == 4 ? &motion_kernels_v4 : level == 3 ? &motion_kernels_v3 : &motion_kernels_v2;
     loop->sharp_kernels = level == 4 ? &sharp_kernels_v4 : level == 3 ? &sharp_kernels_v3 : &sharp_kernels_v2;
+    loop->meet_kernels = level == 4 ? &meet_kernels_v4 : level == 3 ? &meet_kernels_v3 : &meet_kernels_v2;
     loop->grid.overlap = loop->motion_kernels->overlap;
 }
 

@@ -1,9 +1,8 @@
 /* Edges against edges: where two lines cross, on which side the first passes the second. */
+#include "contact/contact_geometry.h"
 #include "contact/contact_law.h"
 #include "contact/contact_sides.h"
-
-/* Edges at a smaller angle (sine squared) are as good as parallel: their nodes do the work. */
-#define PARALLEL 1e-3
+#include "solver/memory.h"
 
 /* A pair in contact is kept until its crossing is beyond an end by this share of the edge, so that the next edge can
  * take over. */
@@ -47,21 +46,6 @@ static inline bool cross_edges(Crossing *c, const double *const p[4], double rea
     return true;
 }
 
-/* Edges that do not cross within their lengths, most of them: cheap, and for no pair that does. */
-static inline bool pass_by(const double *const p[4])
-{
-    double u[3], w[3], r[3];
-    for (int k = 0; k < 3; k++) {
-        u[k] = p[1][k] - p[0][k];
-        w[k] = p[3][k] - p[2][k];
-        r[k] = p[0][k] - p[2][k];
-    }
-    double uu = vector3_dot(u, u), ww = vector3_dot(w, w), uw = vector3_dot(u, w);
-    double ur = vector3_dot(u, r), wr = vector3_dot(w, r), least = 1e-9 * uu * ww, most = uu * ww - uw * uw + least;
-    double s = uw * wr - ww * ur, t = uu * wr - uw * ur;
-    return (s < -least) | (t < -least) | (s > most) | (t > most);
-}
-
 /* Keeps what a pair knew that ends while it pushes. */
 static void note_ended(ContactPassages *passages, int e, int f, const ContactMemory *m)
 {
@@ -78,53 +62,36 @@ static inline void edge_ends(const ContactInterface *c, const double *x, int e, 
     }
 }
 
-/* How fast two edges may come nearer at most. */
-static double closing_speed(const double *v, const int32_t *a, const int32_t *b)
-{
-    double most = 0.0;
-    for (int i = 0; i < 2; i++)
-        for (int k = 0; k < 2; k++) {
-            double u[3];
-            vector3_subtract(v + 3 * (ptrdiff_t)a[i], v + 3 * (ptrdiff_t)b[k], u);
-            most = larger(most, vector3_dot(u, u));
-        }
-    return sqrt(most);
-}
-
-static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int e, int f, ContactSums *sums,
-                      ContactForce *forces, ContactPassages *passages)
+/* Lane l of a block: a pair that crosses, or knows something. */
+static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law, const MeetEdges *block, int l,
+                      ContactSums *sums, ContactForce *forces, ContactPassages *passages)
 {
     const ContactInterface *c = run->contact;
+    const int e = block->own[l], f = block->other[l];
     const int32_t *a = c->edge + 2 * (ptrdiff_t)e, *b = c->edge + 2 * (ptrdiff_t)f;
-    const double *p[4], *inverse = loop->model->contact_inverse;
-    ContactMemory *m = contact_recall(&run->edges, e, f);
-    edge_ends(c, loop->state->x, e, f, p);
-    if (!m && pass_by(p)) return;
-    double thickness = run->thinness * (c->edge_radius[e] + c->edge_radius[f]);
-    double reach = thickness + contact_ahead(closing_speed(loop->state->v, a, b) * loop->step.longer, thickness) +
-                   (m ? law->deepest : 0.0);
-    Crossing cross;
-    if (!cross_edges(&cross, p, reach, m ? SLACK : 0.0)) {
+    const double *inverse = loop->model->contact_inverse;
+    ContactMemory fresh = {0}, *m = block->memory[l];
+    if (!(block->cross >> l & 1)) {
         if (!m) return;
         note_ended(passages, e, f, m);
         *m = (ContactMemory){0};
         return;
     }
     if (!m && !(contact_moves(inverse, a[0], a + 1, 1) || contact_moves(inverse, b[0], b + 1, 1))) return;
-    ContactMemory fresh = {0};
     if (!m) m = &fresh;
     ContactTouch t = {.node = {a[0], a[1], b[0], b[1]},
-                      .weight = {1.0 - cross.s, cross.s, cross.t - 1.0, -cross.t},
-                      .thickness = thickness,
+                      .thickness = block->thickness[l],
                       .stiffness = c->stiffness[c->edge_side[e] == CONTACT_SIDE_B]};
-    contact_speed(law, &t);
-    double before = cross.height - law->before * vector3_dot(t.speed, cross.normal);
+    double normal[3];
+    for (int k = 0; k < 4; k++) t.weight[k] = block->weight[k][l];
+    for (int k = 0; k < 3; k++) t.speed[k] = block->speed[k][l], normal[k] = block->normal[k][l];
+    double before = block->height[l] - law->before * vector3_dot(t.speed, normal);
     /* the lines' normal turns over where they are parallel: a pair in contact knows its direction */
-    t.side = m->side ? (vector3_dot(m->direction, cross.normal) < 0.0 ? -1 : 1) : (before > 0.0) - (before < 0.0);
+    t.side = m->side ? (vector3_dot(m->direction, normal) < 0.0 ? -1 : 1) : (before > 0.0) - (before < 0.0);
     if (m->side) t.side = m->side;
     if (t.side == 0) return;
-    t.gap = t.side * cross.height;
-    for (int k = 0; k < 3; k++) t.direction[k] = t.side * cross.normal[k];
+    t.gap = t.side * block->height[l];
+    for (int k = 0; k < 3; k++) t.direction[k] = t.side * normal[k];
     ContactForce *out = &forces[sums->count];
     int counts = contact_push(law, &t, m, out, sums);
     if (m->side) memcpy(m->direction, t.direction, sizeof m->direction);
@@ -134,6 +101,48 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     sums->count++;
     double sign = c->edge_side[e] & CONTACT_SIDE_A ? 1.0 : -1.0;
     for (int k = 0; k < 3; k++) sums->force[k] += sign * out->force[k];
+}
+
+/* Puts a pair into the next lane of blocks. */
+static void add_pair(const ContactRun *run, const ContactLaw *law, int e, int f, ContactMemory *m, MeetEdges *block,
+                     int place)
+{
+    const ContactInterface *c = run->contact;
+    const int l = place % MEET_LANES;
+    block += place / MEET_LANES;
+    for (int k = 0; k < 2; k++) {
+        block->nodes.node[k][l] = c->edge[2 * (ptrdiff_t)e + k];
+        block->nodes.node[2 + k][l] = c->edge[2 * (ptrdiff_t)f + k];
+    }
+    block->own[l] = e;
+    block->other[l] = f;
+    block->memory[l] = m;
+    block->thickness[l] = run->thinness * (c->edge_radius[e] + c->edge_radius[f]);
+    block->remembered[l] = m ? law->deepest : 0.0;
+    block->slack[l] = m ? SLACK : 0.0;
+}
+
+/* Of the others of edge e [0, count) those that it may cross, and what it remembers, into lanes from place on. Returns
+ * the next place. */
+static int choose_pairs(const ContactLoop *loop, const ContactRun *run, const ContactLaw *law, const MeetStep *step,
+                        int e, const int32_t *other, int count, MeetEdges *block, int place)
+{
+    const ContactInterface *c = run->contact;
+    MeetNodes nodes;
+    for (int l = 0; l < MEET_LANES; l++)
+        for (int k = 0; k < 2; k++) nodes.node[k][l] = c->edge[2 * (ptrdiff_t)e + k];
+    for (int first = 0; first < count; first += MEET_LANES) {
+        int some = count - first < MEET_LANES ? count - first : MEET_LANES;
+        for (int l = 0; l < MEET_LANES; l++)
+            for (int k = 0; k < 2; k++)
+                nodes.node[2 + k][l] = c->edge[2 * (ptrdiff_t)other[l < some ? first + l : first] + k];
+        unsigned set = loop->meet_kernels->may_cross(step, &nodes);
+        for (int l = 0; l < some; l++) {
+            ContactMemory *m = contact_ask(&run->edges, e, other[first + l]);
+            if (m || set >> l & 1) add_pair(run, law, e, other[first + l], m, block, place++);
+        }
+    }
+    return place;
 }
 
 static int owner_group(const ContactRun *run, int e)
@@ -195,7 +204,26 @@ void contact_pass_on(ContactLoop *loop, ContactRun *run)
         }
 }
 
-void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int group, int thread, int place)
+/* Pairs of the group's edges that may cross, in lanes of the thread's blocks. Returns how many, -1 without memory. */
+static int find_crossings(ContactLoop *loop, ContactRun *run, const ContactLaw *law, const ContactLanes *lanes,
+                          ContactPart *part, const int start[CONTACT_GROUP + 1])
+{
+    const MeetStep step = {.x = loop->state->x, .v = loop->state->v, .longer = loop->step.longer};
+    int count = 0;
+    if (memory_reserve((void **)&part->edges, &part->edges_capacity, (size_t)start[CONTACT_GROUP] / MEET_LANES + 1,
+                       sizeof *part->edges))
+        return -1;
+    for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++)
+        count = choose_pairs(loop, run, law, &step, lanes->item[k], part->other + start[k], start[k + 1] - start[k],
+                             part->edges, count);
+    int blocks = (count + MEET_LANES - 1) / MEET_LANES;
+    for (int place = count; place < blocks * MEET_LANES; place++)
+        add_pair(run, law, lanes->item[0], lanes->item[0], NULL, part->edges, place);
+    loop->meet_kernels->edges(&step, part->edges, blocks);
+    return count;
+}
+
+void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int group, int thread, int turn)
 {
     ContactList *list = &run->edges;
     ContactPart *part = &loop->parts[thread];
@@ -206,14 +234,17 @@ void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     *sums = (ContactSums){0};
     list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
     passages->count = 0;
-    contact_find_near(loop, run, true, group, thread, place, start);
+    contact_find_near(loop, run, true, group, thread, turn, start);
     if (part->failed || start[CONTACT_GROUP] == 0) return;
-    ContactForce *forces = contact_force_room(part, (size_t)start[CONTACT_GROUP]);
-    if (!forces) return;
-    for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) {
-        for (int i = start[k]; i < start[k + 1]; i++)
-            meet_pair(loop, run, law, lanes->item[k], part->other[i], sums, forces, passages);
-        if (start[k + 1] > start[k]) contact_count_held(list, lanes->item[k]);
+    int count = find_crossings(loop, run, law, lanes, part, start);
+    ContactForce *forces = count < 0 ? NULL : contact_force_room(part, (size_t)count + 1);
+    if (!forces) {
+        part->failed = true;
+        return;
     }
+    for (int place = 0; place < count; place++)
+        meet_pair(loop, run, law, &part->edges[place / MEET_LANES], place % MEET_LANES, sums, forces, passages);
+    for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++)
+        if (start[k + 1] > start[k]) contact_count_held(list, lanes->item[k]);
     part->force_count += (size_t)sums->count;
 }

@@ -3,13 +3,16 @@
 #include "contact/contact_geometry.h"
 #include "contact/contact_law.h"
 #include "contact/contact_sides.h"
+#include "solver/memory.h"
 
 enum { MOST_NEAR = 32 }; /* triangles near one node that are looked at in one cycle */
 
 /* One candidate of a node that is near or in contact. */
 typedef struct NearFace {
     ClosestPoint at;
-    ContactMemory *memory; /* NULL: none */
+    ContactMemory *memory;  /* NULL: none */
+    const MeetFaces *block; /* where it has been found */
+    int lane;
     int32_t triangle;
     bool rim; /* the closest point is on the surface's rim */
     bool kept;
@@ -148,56 +151,31 @@ static bool take_side(const ContactLaw *law, const ContactInterface *c, const do
     return true;
 }
 
-/* How fast a node and a triangle may come nearer at most. */
-static double closing_speed(const double *v, int32_t node, const int32_t corner[3])
+/* Of the candidates [first, end) of node i those that are near. What it has no memory of it may meet
+ * (contact/near_kernels.c). */
+static int look_around(const ContactLoop *loop, const ContactRun *run, int i, const ContactPart *part, int first,
+                       int end, NearFace *near)
 {
-    double most = 0.0;
-    for (int i = 0; i < 3; i++) {
-        double u[3];
-        vector3_subtract(v + 3 * (ptrdiff_t)corner[i], v + 3 * (ptrdiff_t)node, u);
-        most = larger(most, vector3_dot(u, u));
-    }
-    return sqrt(most);
-}
-
-/* Too far for its own velocity: a new pair that cannot touch in this step. */
-static bool cannot_touch(const ContactLaw *law, const NearFace *f, int32_t node, double thickness)
-{
-    double beyond = f->at.distance - thickness;
-    if (!(beyond > 0.0)) return false;
-    ContactTouch t = {.node = {node, f->at.corner[0], f->at.corner[1], f->at.corner[2]},
-                      .weight = {1.0, -f->at.weight[0], -f->at.weight[1], -f->at.weight[2]}};
-    contact_speed(law, &t);
-    return beyond > contact_ahead(law->longer * vector3_norm(t.speed), thickness) * (1.0 + 1e-9);
-}
-
-/* Of the triangles [first, end) of others those that the node may touch in this step. What it has no memory of it may
- * meet (contact/near_kernels.c). */
-static int look_around(const ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, const int32_t *other,
-                       int others, NearFace *near)
-{
-    const ContactInterface *c = run->contact;
-    const double *x = loop->state->x, *at = x + 3 * (ptrdiff_t)c->node[i], *inverse = loop->model->contact_inverse;
-    double depth = run->faces.depth[i]; /* behind a surface: the next triangle may be as far away */
+    const double *inverse = loop->model->contact_inverse;
     int count = 0;
-    for (int k = 0; k < others; k++) {
-        int32_t t = other[k];
-        NearFace *f = &near[count];
-        double thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[t]), bound;
-        f->memory = contact_recall(&run->faces, i, t);
-        f->triangle = t;
-        memcpy(f->at.corner, c->triangle + 3 * (ptrdiff_t)t, sizeof f->at.corner);
-        double way = closing_speed(loop->state->v, c->node[i], f->at.corner) * loop->step.longer;
-        double reach = thickness + contact_ahead(way, thickness) + depth;
-        if (f->memory)
-            reach += contact_deepest(c);
-        else if (!contact_moves(inverse, c->node[i], f->at.corner, 3))
-            continue;
-        if (closest_point(&f->at, at, x, reach, &bound) && count < MOST_NEAR - 1) {
-            f->counts = f->memory || !cannot_touch(law, f, c->node[i], thickness);
-            count++;
-        } else if (f->memory) {
-            *f->memory = (ContactMemory){0};
+    for (int place = first; place < end; place++) {
+        const MeetFaces *block = &part->faces[place / MEET_LANES];
+        int l = place % MEET_LANES;
+        ContactMemory *m = block->memory[l];
+        if (block->near >> l & 1 && count < MOST_NEAR - 1) {
+            NearFace *f = &near[count];
+            f->memory = m;
+            f->block = block;
+            f->lane = l;
+            f->triangle = part->other[place];
+            for (int k = 0; k < 3; k++) f->at.corner[k] = block->nodes.node[k + 1][l];
+            f->at.height = block->height[l];
+            f->at.distance = block->distance[l];
+            f->at.feature = (int)block->feature[l];
+            f->counts = m || block->touch >> l & 1;
+            count += m || contact_moves(inverse, run->contact->node[i], f->at.corner, 3);
+        } else if (m) {
+            *m = (ContactMemory){0};
         }
     }
     return count;
@@ -222,10 +200,15 @@ static void meet_face(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     const ContactInterface *c = run->contact;
     ContactMemory fresh = {0}, *m = f->memory;
     ContactTouch t = {.node = {c->node[i], f->at.corner[0], f->at.corner[1], f->at.corner[2]},
-                      .weight = {1.0, -f->at.weight[0], -f->at.weight[1], -f->at.weight[2]},
-                      .thickness = run->thinness * (c->node_radius[i] + c->triangle_radius[f->triangle]),
+                      .weight = {1.0},
+                      .thickness = f->block->thickness[f->lane],
                       .stiffness = c->stiffness[c->node_side[i] == CONTACT_SIDE_B]};
-    if (f->kept) contact_speed(law, &t);
+    for (int k = 0; k < 3; k++) {
+        t.weight[k + 1] = -f->block->weight[k][f->lane];
+        t.speed[k] = f->block->speed[k][f->lane];
+        f->at.normal[k] = f->block->normal[k][f->lane];
+        f->at.toward[k] = f->block->toward[k][f->lane];
+    }
     f->rim = is_on_rim(c, f);
     if (!f->kept || !take_side(law, c, loop->state->x, f, m ? m : &fresh, &t)) {
         if (m) *m = (ContactMemory){0};
@@ -242,11 +225,11 @@ static void meet_face(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
 }
 
 /* One node with what is near it or in contact with it. */
-static void meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, const int32_t *other,
-                      int others, ContactSums *sums, ContactForce *forces)
+static void meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, const ContactPart *part,
+                      int first, int end, ContactSums *sums, ContactForce *forces)
 {
     NearFace near[MOST_NEAR];
-    int count = look_around(loop, run, law, i, other, others, near);
+    int count = look_around(loop, run, i, part, first, end, near);
     run->faces.depth[i] = 0.0;
     keep_nearest(near, count);
     for (int k = 0; k < count; k++)
@@ -260,7 +243,42 @@ static void forget_depths(ContactList *list, const ContactLanes *lanes)
     for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) list->depth[lanes->item[k]] = 0.0;
 }
 
-void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int group, int thread, int place)
+/* Puts the others of node i into lanes of blocks from place on. */
+static void add_others(const ContactRun *run, int i, const int32_t *other, int count, MeetFaces *faces, int place)
+{
+    const ContactInterface *c = run->contact;
+    double depth = run->faces.depth[i]; /* behind a surface: the next triangle may be as far away */
+    for (int k = 0; k < count; k++, place++) {
+        MeetFaces *block = &faces[place / MEET_LANES];
+        const int l = place % MEET_LANES;
+        const int32_t *corner = c->triangle + 3 * (ptrdiff_t)other[k];
+        ContactMemory *m = contact_ask(&run->faces, i, other[k]);
+        block->nodes.node[0][l] = c->node[i];
+        for (int a = 0; a < 3; a++) block->nodes.node[a + 1][l] = corner[a];
+        block->memory[l] = m;
+        block->thickness[l] = run->thinness * (c->node_radius[i] + c->triangle_radius[other[k]]);
+        block->depth[l] = depth;
+        block->remembered[l] = m ? contact_deepest(c) : 0.0;
+    }
+}
+
+/* Closest points of all candidates of a group, in lanes of the thread's blocks. -1 without memory. */
+static int find_closest(const ContactLoop *loop, const ContactRun *run, const ContactLanes *lanes, ContactPart *part,
+                        const int start[CONTACT_GROUP + 1])
+{
+    const MeetStep step = {.x = loop->state->x, .v = loop->state->v, .longer = loop->step.longer};
+    int count = start[CONTACT_GROUP], blocks = (count + MEET_LANES - 1) / MEET_LANES;
+    if (memory_reserve((void **)&part->faces, &part->faces_capacity, (size_t)blocks, sizeof *part->faces)) return -1;
+    for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++)
+        add_others(run, lanes->item[k], part->other + start[k], start[k + 1] - start[k], part->faces, start[k]);
+    for (int place = count; place < blocks * MEET_LANES; place++)
+        for (int a = 0; a < 4; a++)
+            part->faces[place / MEET_LANES].nodes.node[a][place % MEET_LANES] = run->contact->node[lanes->item[0]];
+    loop->meet_kernels->faces(&step, part->faces, blocks);
+    return 0;
+}
+
+void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int group, int thread, int turn)
 {
     ContactList *list = &run->faces;
     ContactPart *part = &loop->parts[thread];
@@ -269,11 +287,15 @@ void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     int start[CONTACT_GROUP + 1];
     *sums = (ContactSums){0};
     list->pieces[group] = (ContactPiece){.thread = thread, .first = (int32_t)part->force_count};
-    contact_find_near(loop, run, false, group, thread, place, start);
+    contact_find_near(loop, run, false, group, thread, turn, start);
     list->deepest[group] = 0.0;
     if (part->failed) return;
     if (start[CONTACT_GROUP] == 0) {
         forget_depths(list, lanes);
+        return;
+    }
+    if (find_closest(loop, run, lanes, part, start)) {
+        part->failed = true;
         return;
     }
     ContactForce *forces = contact_force_room(part, (size_t)CONTACT_GROUP * MOST_NEAR);
@@ -283,7 +305,7 @@ void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *la
         if (start[k + 1] == start[k])
             list->depth[i] = 0.0;
         else
-            meet_node(loop, run, law, i, part->other + start[k], start[k + 1] - start[k], sums, forces);
+            meet_node(loop, run, law, i, part, start[k], start[k + 1], sums, forces);
         list->deepest[group] = larger(list->deepest[group], list->depth[i]);
     }
     if (list->deepest[group] > list->allowed[group]) part->deep = true;

@@ -12,6 +12,9 @@
 /* A foot nearer to an edge than this share of the triangle lies on it: rounding must not put it into two triangles. */
 #define ON_EDGE 1e-9
 
+/* Edges at a smaller angle (sine squared) are as good as parallel: their nodes do the work. */
+#define PARALLEL 1e-3
+
 /* Closest point of one triangle to a node. */
 typedef struct ClosestPoint {
     int32_t corner[3];

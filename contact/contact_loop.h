@@ -8,6 +8,7 @@
 #include "contact/contact_candidates.h"
 #include "contact/contact_grid.h"
 #include "contact/contact_motion.h"
+#include "contact/meet_kernels.h"
 #include "contact/motion_kernels.h"
 #include "contact/near_kernels.h"
 #include "contact/sharp_kernels.h"
@@ -110,8 +111,23 @@ static inline ContactMemory *contact_recall(const ContactList *list, int owner, 
     return NULL;
 }
 
-/* Memories of a group's owners are asked for before they are needed: they lie far apart. */
-static inline void contact_fetch(const ContactList *list, const ContactLanes *lanes)
+/* The same before the owner's look, when all that is held has a side; the memory is asked for instead of looked at. */
+static inline ContactMemory *contact_ask(const ContactList *list, int owner, int32_t other)
+{
+    const int32_t *partner = list->partner + (ptrdiff_t)owner * CONTACT_SLOTS;
+    for (int k = 0; k < list->held[owner]; k++) {
+        if (partner[k] != other) continue;
+        ContactMemory *m = contact_slot(list, owner, k);
+        __builtin_prefetch(m);
+        __builtin_prefetch((const char *)(m + 1) - 1);
+        return m;
+    }
+    return NULL;
+}
+
+/* Memories of a group's owners are asked for before they are needed: they lie far apart. GCC takes a function that only
+ * asks for memory as one that does nothing, unless it is dissolved first. */
+__attribute__((always_inline)) static inline void contact_fetch(const ContactList *list, const ContactLanes *lanes)
 {
     for (int i = 0; i < CONTACT_GROUP && lanes->item[i] >= 0; i++)
         for (int k = 0; k < list->held[lanes->item[i]]; k++) {
@@ -213,6 +229,9 @@ typedef struct ContactPart {
     int32_t *other; /* what each owner of a group may touch in this step and what it remembers */
     size_t other_capacity;
     ContactLook look;
+    MeetFaces *faces; /* pairs of one group of owners in lanes */
+    MeetEdges *edges;
+    size_t faces_capacity, edges_capacity;
     ContactPull *pull; /* what its pairs have asked for (node_count) */
     bool deep;         /* a group is deeper than allowed: a search is due */
     bool failed;       /* no memory */
@@ -250,6 +269,7 @@ typedef struct ContactLoop {
     const NearKernels *kernels;
     const MotionKernels *motion_kernels;
     const SharpKernels *sharp_kernels;
+    const MeetKernels *meet_kernels;
     size_t box_capacity;
     double *room; /* as of State.contact_formed: (w dt)^2 that contact may add at a node in direction d is 1/(d . room
                    * d); xx yy zz xy yz zx (node_count x 6) */
@@ -309,18 +329,18 @@ unsigned char *contact_list_pulled(const Model *model);
 
 struct ContactLaw;
 void contact_meet_faces(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int group, int thread,
-                        int place);
+                        int turn);
 void contact_meet_edges(ContactLoop *loop, ContactRun *run, const struct ContactLaw *law, int group, int thread,
-                        int place);
+                        int turn);
 
-/* Which pairs of a group of owners are awake in this cycle. Groups of one turn first, each in a place of its own: what
- * is known of those awake is on its way then. */
-void contact_wake(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int place);
+/* Which pairs of a group of owners are awake in this cycle. Groups of one turn first, each with a number of its own:
+ * what is known of those awake is on its way then. */
+void contact_wake(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int turn);
 
 /* What a group of owners may touch in this step, and what it remembers, ascending (contact/contact_near.c): those of
  * lane k of the group are other[start[k]] to other[start[k + 1]] of the thread's part, which has failed without memory.
  */
-void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int place,
+void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int turn,
                        int start[CONTACT_GROUP + 1]);
 
 /* Room for more forces of a thread; NULL without memory. */

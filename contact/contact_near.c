@@ -178,15 +178,16 @@ static int list_others(const ContactLoop *loop, const NearGroup *near, bool some
     return 0;
 }
 
-/* What is known of a pair, and the nodes of its second group. */
-static void ask_for(const ContactList *list, const ContactGroups *others, int32_t pair)
+/* What is known of a pair, and the nodes of its second group; dissolved as contact_fetch must be. */
+__attribute__((always_inline)) static inline void ask_for(const ContactList *list, const ContactGroups *others,
+                                                          int32_t pair)
 {
     const ContactLanes *lanes = &others->lanes[list->pairs.other[pair]];
     __builtin_prefetch(list->pairs.kept + pair);
     for (int n = 0; n < 3; n++) __builtin_prefetch(lanes->node[n]);
 }
 
-void contact_wake(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int place)
+void contact_wake(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int turn)
 {
     ContactList *list = edges ? &run->edges : &run->faces;
     ContactPart *part = &loop->parts[thread];
@@ -200,13 +201,13 @@ void contact_wake(ContactLoop *loop, ContactRun *run, bool edges, int group, int
                           .longer = (float)loop->step.longer,
                           .least = (float)own->radius[group],
                           .deepest = (float)list->deepest[group] * ROUND_UP};
-    if (memory_reserve((void **)&part->woken[place], &part->woken_capacity[place], blocks + 1, sizeof **part->woken)) {
+    if (memory_reserve((void **)&part->woken[turn], &part->woken_capacity[turn], blocks + 1, sizeof **part->woken)) {
         part->failed = true;
         return;
     }
     if (list->holds[group]) contact_fetch(list, &own->lanes[group]);
     for (size_t b = 0; b < blocks; b++) {
-        ContactWoken *woken = &part->woken[place][b];
+        ContactWoken *woken = &part->woken[turn][b];
         int32_t k = first + (int32_t)b * CONTACT_GROUP, left = list->start[group + 1] - k;
         woken->awake = loop->motion_kernels->wake(&watch, list->pairs.other + k, list->pairs.slack + k,
                                                   left < CONTACT_GROUP ? left : CONTACT_GROUP, woken->speed);
@@ -215,7 +216,7 @@ void contact_wake(ContactLoop *loop, ContactRun *run, bool edges, int group, int
     }
 }
 
-void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int place,
+void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group, int thread, int turn,
                        int start[CONTACT_GROUP + 1])
 {
     ContactList *list = edges ? &run->edges : &run->faces;
@@ -230,7 +231,7 @@ void contact_find_near(ContactLoop *loop, ContactRun *run, bool edges, int group
                       .other = list->pairs.other + first,
                       .slack = list->pairs.slack + first,
                       .kept = list->pairs.kept + first,
-                      .woken = part->woken[place],
+                      .woken = part->woken[turn],
                       .longer = (float)loop->step.longer,
                       .deepest = (float)list->deepest[group] * ROUND_UP,
                       .edges = edges};
