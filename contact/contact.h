@@ -62,17 +62,20 @@ typedef struct ContactInterface {
     int memory_capacity; /* entries there */
 } ContactInterface;
 
-/* What a pair in contact remembers from cycle to cycle. */
+/* What a pair in contact remembers from cycle to cycle, in one line of the cache: what is only compared, or small
+ * beside what it is added to, in single precision. */
 typedef struct ContactMemory {
     double distance;  /* at which the pair begins to push: the thickness, less what it was short of at the start [L] */
     double stiffness; /* k [F/L] */
-    double gap;       /* at the last cycle [L] */
-    double limit;     /* force of eq. C13 at the last cycle [F] */
-    double direction[3]; /* of the force on the first edge; unused for nodes */
-    double friction[3];  /* tangential force on the node, or on the first edge [F] */
-    int32_t side;        /* +1, -1: on which side of the oriented surface the node is; 0: not in contact */
-    int32_t pair[2];     /* node and triangle, or edge and edge, of the interface; edges from node_count on */
+    float gap;        /* at the last cycle [L] */
+    float limit;      /* force of eq. C13 at the last cycle [F] */
+    float direction[3]; /* of the force on the first edge; unused for nodes */
+    float friction[3];  /* tangential force on the node, or on the first edge [F] */
+    int32_t side;       /* +1, -1: on which side of the oriented surface the node is; 0: not in contact */
+    int32_t pair[2];    /* node and triangle, or edge and edge, of the interface; edges from node_count on */
     int32_t padding;
 } ContactMemory;
+
+_Static_assert(sizeof(ContactMemory) == 64, "a line of the cache");
 
 #endif

@@ -62,6 +62,12 @@ static inline void edge_ends(const ContactInterface *c, const double *x, int e, 
     }
 }
 
+/* Component of the direction remembered along a normal. */
+static double along_memory(const ContactMemory *m, const double normal[3])
+{
+    return m->direction[0] * normal[0] + m->direction[1] * normal[1] + m->direction[2] * normal[2];
+}
+
 /* Lane l of a block: a pair that crosses, or knows something. */
 static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law, const MeetEdges *block, int l,
                       ContactSums *sums, ContactForce *forces, ContactPassages *passages)
@@ -87,14 +93,14 @@ static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
     for (int k = 0; k < 3; k++) t.speed[k] = block->speed[k][l], normal[k] = block->normal[k][l];
     double before = block->height[l] - law->before * vector3_dot(t.speed, normal);
     /* the lines' normal turns over where they are parallel: a pair in contact knows its direction */
-    t.side = m->side ? (vector3_dot(m->direction, normal) < 0.0 ? -1 : 1) : (before > 0.0) - (before < 0.0);
-    if (m->side) t.side = m->side;
+    t.side = m->side ? (along_memory(m, normal) < 0.0 ? -1 : 1) : (before > 0.0) - (before < 0.0);
     if (t.side == 0) return;
     t.gap = t.side * block->height[l];
     for (int k = 0; k < 3; k++) t.direction[k] = t.side * normal[k];
     ContactForce *out = &forces[sums->count];
     int counts = contact_push(law, &t, m, out, sums);
-    if (m->side) memcpy(m->direction, t.direction, sizeof m->direction);
+    if (m->side) m->side = t.side;
+    for (int k = 0; k < 3 && m->side; k++) m->direction[k] = (float)t.direction[k];
     if (m == &fresh && m->side != 0) contact_keep(&run->edges, e, f, m);
     if (!counts) return;
     out->blocks = contact_is_sharp(loop, run, e) && contact_is_sharp(loop, run, f);
@@ -153,7 +159,7 @@ static int owner_group(const ContactRun *run, int e)
 /* Gives a memory to the pair e, f if they cross and know nothing yet; its side by the direction of the force. */
 static bool leave_to(ContactLoop *loop, ContactRun *run, const ContactPassage *ended, int e, int f)
 {
-    const double *p[4], *was = ended->memory.direction;
+    const double *p[4];
     Crossing cross;
     bool swapped = owner_group(run, f) < owner_group(run, e) || (owner_group(run, f) == owner_group(run, e) && f < e);
     int owner = swapped ? f : e, other = swapped ? e : f;
@@ -164,13 +170,13 @@ static bool leave_to(ContactLoop *loop, ContactRun *run, const ContactPassage *e
     /* it has slid along: the gap is about what it was */
     double thickness = run->thinness * (run->contact->edge_radius[e] + run->contact->edge_radius[f]);
     if (!cross_edges(&cross, p, thickness + fabs(ended->memory.gap), SLACK)) return false;
-    double sign = swapped ? -1.0 : 1.0, along = sign * vector3_dot(was, cross.normal);
+    double sign = swapped ? -1.0 : 1.0, along = sign * along_memory(&ended->memory, cross.normal);
     ContactMemory m = ended->memory;
     m.side = along >= 0.0 ? 1 : -1;
     if (fabs(along) < PASSAGE_TURN || fabs(m.side * cross.height - m.gap) > PASSAGE_JUMP * thickness) return false;
     for (int k = 0; k < 3; k++) {
-        m.direction[k] = m.side * cross.normal[k];
-        m.friction[k] *= sign;
+        m.direction[k] = (float)(m.side * cross.normal[k]);
+        m.friction[k] = swapped ? -m.friction[k] : m.friction[k];
     }
     contact_keep(&run->edges, owner, other, &m);
     run->edges.holds[owner_group(run, owner)] = 1;

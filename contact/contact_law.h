@@ -142,20 +142,19 @@ static inline void contact_yield(const ContactTouch *t, double normal_speed, dou
 static inline void contact_friction(const ContactLaw *law, const ContactTouch *t, double normal_speed,
                                     double normal_force, double stiffness, ContactMemory *m)
 {
-    double slip[3], along = vector3_dot(m->friction, t->direction), speed2 = 0.0;
+    double slip[3], friction[3] = {m->friction[0], m->friction[1], m->friction[2]}, speed2 = 0.0;
+    double along = vector3_dot(friction, t->direction);
     for (int k = 0; k < 3; k++) {
         slip[k] = t->speed[k] - normal_speed * t->direction[k];
         speed2 += slip[k] * slip[k];
-        m->friction[k] -= along * t->direction[k] + stiffness * law->before * slip[k];
+        friction[k] -= along * t->direction[k] + stiffness * law->before * slip[k];
     }
     double mu = law->static_friction;
     if (law->decay > 0.0)
         mu = law->dynamic_friction +
              (mu - law->dynamic_friction) * elementary_exp(-law->decay * sqrt(speed2)); /* eq. C11 */
-    double size = vector3_norm(m->friction), most = mu * normal_force;
-    if (size <= most) return;
-    double scale = size > 0.0 ? most / size : 0.0;
-    for (int k = 0; k < 3; k++) m->friction[k] *= scale;
+    double size = vector3_norm(friction), most = mu * normal_force, scale = size <= most ? 1.0 : most / size;
+    for (int k = 0; k < 3; k++) m->friction[k] = (float)(scale * friction[k]);
 }
 
 /* Mean over the step of a penetration that grows or shrinks by 2 h, as far as it is positive (eq. C2). */
@@ -245,7 +244,7 @@ static inline int contact_push(const ContactLaw *law, ContactTouch *t, ContactMe
             }
         }
         if (!new_pair) contact_yield(t, normal_speed, law->before, m);
-        m->gap = t->gap;
+        m->gap = (float)t->gap;
         contact_ease(t, normal_speed > 0.0 ? t->gap - h : t->gap, new_pair, m);
         contact_stiffen(t, (wanted < most ? wanted : most) / step2, new_pair, m);
         double depth = contact_mean_depth(m->distance - t->gap, h);
@@ -257,7 +256,7 @@ static inline int contact_push(const ContactLaw *law, ContactTouch *t, ContactMe
         }
     }
     if (!touching) m->distance = t->thickness;
-    m->limit = contact_limit(law, t, &masses, normal_speed, force, m);
+    m->limit = (float)contact_limit(law, t, &masses, normal_speed, force, m);
     out->firm = m->limit > 0.0 ? masses.load : 0.0;
     force += m->limit;
     for (int k = 0; k < 3; k++) out->force[k] = force * t->direction[k];

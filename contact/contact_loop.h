@@ -119,7 +119,6 @@ static inline ContactMemory *contact_ask(const ContactList *list, int owner, int
         if (partner[k] != other) continue;
         ContactMemory *m = contact_slot(list, owner, k);
         __builtin_prefetch(m);
-        __builtin_prefetch((const char *)(m + 1) - 1);
         return m;
     }
     return NULL;
@@ -132,9 +131,7 @@ __attribute__((always_inline)) static inline void contact_fetch(const ContactLis
     for (int i = 0; i < CONTACT_GROUP && lanes->item[i] >= 0; i++)
         for (int k = 0; k < list->held[lanes->item[i]]; k++) {
             __builtin_prefetch(list->partner + (ptrdiff_t)lanes->item[i] * CONTACT_SLOTS);
-            const char *at = (const char *)contact_slot(list, lanes->item[i], k);
-            __builtin_prefetch(at);
-            __builtin_prefetch(at + sizeof(ContactMemory) - 1);
+            __builtin_prefetch(contact_slot(list, lanes->item[i], k));
         }
 }
 

@@ -208,7 +208,7 @@ static void push_hit(const ContactLoop *loop, const ContactEntity *entity, const
     double root = sqrt(4.0 * z * z + 0.8 * masses.stiff / masses.least) - 2.0 * z;
     double most = root * root * masses.least, wanted = CONTACT_STIFFNESS * t.stiffness * masses.effective;
     if (new_pair) contact_begin(&t, speed, law->before, m);
-    m->gap = t.gap;
+    m->gap = (float)t.gap;
     contact_ease(&t, speed > 0.0 ? t.gap - h : t.gap, new_pair, m);
     contact_stiffen(&t, (wanted < most ? wanted : most) / step2, new_pair, m);
     double depth = contact_mean_depth(m->distance - t.gap, h), force = m->stiffness * depth;
