@@ -15,6 +15,7 @@
 #include "contact/near_kernels.h"
 #include "contact/sharp_kernels.h"
 #include "elements/kernels.h"
+#include "tests/next_number.h"
 #include "tests/verify.h"
 
 enum { NODES = 4 * CONTACT_GROUP, ROUNDS = 3000 };
@@ -37,15 +38,6 @@ static int list_sets(Set set[3])
     for (int i = 0; i < 3; i++)
         if (kernels_select(all[i].name)) set[count++] = all[i];
     return count;
-}
-
-static double next_number(void)
-{
-    static uint64_t seed = 88172645463325252u;
-    seed ^= seed << 13;
-    seed ^= seed >> 7;
-    seed ^= seed << 17;
-    return (double)(seed >> 11) * 0x1p-52 - 1.0;
 }
 
 static void fill(double *x, int count, double scale)

@@ -15,6 +15,7 @@
 #include "elements/kernels.h"
 #include "solver/dense_blas.h"
 #include "solver/dense_kernels.h"
+#include "tests/next_number.h"
 
 enum { MOST = 300, LD = MOST + 5 };
 
@@ -26,15 +27,6 @@ typedef struct Set {
 static double a[LD * MOST], b[LD * MOST], c[LD * MOST], expected[LD * MOST], first[LD * MOST];
 static const ptrdiff_t sizes[] = {0, 1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 32, 33, 63, 65, 100, 257, MOST};
 enum { SIZES = sizeof sizes / sizeof *sizes };
-
-static double next_number(void)
-{
-    static uint64_t seed = 88172645463325252u;
-    seed ^= seed << 13;
-    seed ^= seed >> 7;
-    seed ^= seed << 17;
-    return (double)(seed >> 11) * 0x1p-52 - 1.0;
-}
 
 static void fill(double *matrix)
 {
