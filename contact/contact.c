@@ -1,13 +1,15 @@
 /* Contact in the time loop: when to search, the work of the threads, sums (docs/theory.md, Contact). */
 #define _POSIX_C_SOURCE 200809L
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "contact/contact_erosion.h"
-#include "contact/contact_law.h"
+#include "contact/contact_push.h"
 #include "contact/contact_skin.h"
 #include "contact/entity_loop.h"
 #include "solver/memory.h"
+#include "solver/vector3.h"
 
 /* Share of a step by which the step that contact reckons with may fall short of the last one (eq. C4b). */
 #define STEP_FALL 0.1
@@ -100,18 +102,8 @@ void contact_prepare(ContactLoop *loop, double time, double before, double next,
 static ContactLaw law_of(const ContactLoop *loop, const ContactRun *run, int thread)
 {
     const ContactInterface *c = run->contact;
-    return (ContactLaw){.model = loop->model,
-                        .rows = loop->rows,
-                        .pressure = loop->pressure,
-                        .v = loop->state->v,
-                        .inverse = loop->model->contact_inverse,
+    return (ContactLaw){.nodes = loop->node,
                         .pull = loop->parts[thread].pull,
-                        .cycle = loop->cycle,
-                        .room = loop->room,
-                        .corner = loop->corner,
-                        .firm = loop->firm,
-                        .pulled = loop->pulled,
-                        .time = loop->step.time,
                         .before = loop->step.before,
                         .next = loop->step.next,
                         .longer = loop->step.longer,
@@ -137,8 +129,7 @@ void contact_forces(ContactLoop *loop, int thread, int threads)
 {
     ContactPart *part = &loop->parts[thread];
     part->force_count = 0;
-    if (!part->pull) part->pull = memory_alloc((size_t)loop->model->node_count, sizeof *part->pull);
-    if (!part->pull) {
+    if (!part->pull && contact_pulls_create(part, loop->model->node_count)) {
         part->failed = true;
         return;
     }
@@ -166,23 +157,31 @@ void contact_forces(ContactLoop *loop, int thread, int threads)
     if (loop->entities) entities_push(loop, thread, threads);
 }
 
+/* Forces before its turn that the nodes of one are asked for. */
+enum { GATHER_AHEAD = 2 };
+
 /* Adds what the forces of one list give to the nodes [first, end), in the list's order. */
 static void gather_list(ContactLoop *loop, const ContactList *list, int32_t first, int32_t end)
 {
     for (int c = 0; c < list->group_count; c++) {
         if (list->sums[c].count == 0) continue;
         const ContactForce *force = loop->parts[list->pieces[c].thread].force + list->pieces[c].first;
-        for (int k = 0; k < list->sums[c].count; k++, force++)
+        for (int k = 0; k < list->sums[c].count; k++, force++) {
+            for (int i = 0; i < 4 && k + GATHER_AHEAD < list->sums[c].count; i++) {
+                __builtin_prefetch(loop->corner + CONTACT_ROW * (ptrdiff_t)force[GATHER_AHEAD].node[i], 1);
+                __builtin_prefetch(&loop->node[force[GATHER_AHEAD].node[i]], 1);
+            }
             for (int i = 0; i < 4; i++) {
                 int32_t node = force->node[i];
                 double weight = force->weight[i], *to = loop->corner + CONTACT_ROW * (ptrdiff_t)node;
                 if (node < first || node >= end) continue;
                 for (int a = 0; a < 3; a++) to[a] += weight * force->force[a];
-                to[3] += fabs(weight) * force->load;
-                loop->firm[node] += fabs(weight) * force->firm;
+                loop->node[node].load += fabs(weight) * force->load;
+                loop->node[node].firm += fabs(weight) * force->firm;
                 if (force->blocks && weight != 0.0) loop->covered[node] = 1;
                 loop->written[node / CONTACT_NODE_CHUNK] = 1;
             }
+        }
     }
 }
 
@@ -199,7 +198,7 @@ void contact_gather(ContactLoop *loop, int thread, int threads)
         int32_t from = c * CONTACT_NODE_CHUNK, to = from + CONTACT_NODE_CHUNK < end ? from + CONTACT_NODE_CHUNK : end;
         if (!loop->written[c]) continue;
         memset(loop->corner + CONTACT_ROW * (ptrdiff_t)from, 0, CONTACT_ROW * (size_t)(to - from) * sizeof(double));
-        memset(loop->firm + from, 0, (size_t)(to - from) * sizeof(double));
+        for (int32_t n = from; n < to; n++) loop->node[n].load = loop->node[n].firm = 0.0;
         memset(loop->covered + from, 0, (size_t)(to - from));
         loop->written[c] = 0;
     }
@@ -343,7 +342,7 @@ void contact_store(ContactLoop *loop)
         loop->state->contact_memories[i] = count;
     }
     for (int n = 0; n < loop->model->node_count; n++) {
-        loop->state->contact_load[2 * (ptrdiff_t)n] = loop->corner[CONTACT_ROW * (ptrdiff_t)n + 3];
-        loop->state->contact_load[2 * (ptrdiff_t)n + 1] = loop->firm[n];
+        loop->state->contact_load[2 * (ptrdiff_t)n] = loop->node[n].load;
+        loop->state->contact_load[2 * (ptrdiff_t)n + 1] = loop->node[n].firm;
     }
 }

@@ -55,43 +55,74 @@ static void sort_lane(ContactCandidate *candidate, int32_t count)
     }
 }
 
-/* Puts old ones whose pair still has them and new ones into sorted, by lane; first: of each lane there. */
-static void sort_in(const ContactCandidates *all, ContactSorting *new, int32_t first[CONTACT_GROUP + 1])
+/* The new ones by lane and, in each, by item; start: of each lane. */
+static void sort_new(ContactSorting *new, int32_t start[CONTACT_GROUP + 1])
 {
-    int32_t place[CONTACT_GROUP + 1] = {0}, count = 0, end[CONTACT_GROUP];
+    int32_t place[CONTACT_GROUP] = {0}, count = 0;
     for (int32_t i = 0; i < new->count; i++) place[new->candidate[i].owner]++;
     for (int l = 0; l < CONTACT_GROUP; l++) {
-        int32_t added = place[l];
-        first[l] = count;
-        for (int32_t i = all->first[l]; i < all->first[l + 1]; i++)
-            if (new->used[all->slot[i]])
-                new->sorted[count++] =
-                    (ContactCandidate){.owner = l, .item = all->item[i], .pair = all->slot[i], .gap = all->gap[i]};
-        end[l] = count;
-        count += added;
+        int32_t of_lane = place[l];
+        start[l] = place[l] = count;
+        count += of_lane;
     }
-    first[CONTACT_GROUP] = count;
-    for (int32_t i = 0; i < new->count; i++) new->sorted[end[new->candidate[i].owner]++] = new->candidate[i];
-    for (int l = 0; l < CONTACT_GROUP; l++) sort_lane(new->sorted + first[l], first[l + 1] - first[l]);
+    start[CONTACT_GROUP] = count;
+    for (int32_t i = 0; i < new->count; i++) new->sorted[place[new->candidate[i].owner]++] = new->candidate[i];
+    for (int l = 0; l < CONTACT_GROUP; l++) sort_lane(new->sorted + start[l], start[l + 1] - start[l]);
+}
+
+static int32_t put(ContactCandidates *to, int32_t count, float gap, int32_t item, int32_t slot)
+{
+    to->gap[count] = gap;
+    to->item[count] = item;
+    to->slot[count] = slot;
+    return count + 1;
+}
+
+/* Old ones of a lane whose pair still has them, and new ones [n, end), into to from place count on. Returns where they
+ * end. */
+static int32_t merge_lane(const ContactCandidates *all, int l, const ContactSorting *new, int32_t n, int32_t end,
+                          ContactCandidates *to, int32_t count)
+{
+    for (int32_t i = all->first[l]; i < all->first[l + 1]; i++) {
+        if (n < end && new->used[all->slot[i]])
+            for (; n < end && new->sorted[n].item < all->item[i]; n++)
+                count = put(to, count, new->sorted[n].gap, new->sorted[n].item, new->sorted[n].pair);
+        put(to, count, all->gap[i], all->item[i], all->slot[i]); /* overwritten if it goes */
+        count += new->used[all->slot[i]];
+    }
+    for (; n < end; n++) count = put(to, count, new->sorted[n].gap, new->sorted[n].item, new->sorted[n].pair);
+    return count;
+}
+
+/* Room for most candidates. */
+static int reserve(ContactCandidates *all, size_t most)
+{
+    return memory_reserve((void **)&all->gap, &all->gap_capacity, most, sizeof *all->gap) ||
+                   memory_reserve((void **)&all->item, &all->item_capacity, most, sizeof *all->item) ||
+                   memory_reserve((void **)&all->slot, &all->slot_capacity, most, sizeof *all->slot)
+               ? -1
+               : 0;
 }
 
 int contact_candidates_merge(ContactCandidates *all, ContactKept *kept, int pairs, ContactSorting *new)
 {
     size_t most = (size_t)(all->first[CONTACT_GROUP] + new->count) + CONTACT_GROUP; /* whole registers are read */
+    ContactCandidates *to = &new->merged;
+    int32_t start[CONTACT_GROUP + 1], count = 0;
     if (find_slots(all, kept, pairs, new) ||
-        memory_reserve((void **)&new->sorted, &new->sorted_capacity, most, sizeof *new->sorted) ||
-        memory_reserve((void **)&all->gap, &all->gap_capacity, most, sizeof *all->gap) ||
-        memory_reserve((void **)&all->item, &all->item_capacity, most, sizeof *all->item) ||
-        memory_reserve((void **)&all->slot, &all->slot_capacity, most, sizeof *all->slot))
+        memory_reserve((void **)&new->sorted, &new->sorted_capacity, (size_t) new->count + 1, sizeof *new->sorted) ||
+        reserve(all, most) || reserve(to, most))
         return -1;
-    int32_t first[CONTACT_GROUP + 1];
-    sort_in(all, new, first);
-    memcpy(all->first, first, sizeof first);
-    for (int32_t i = 0; i < first[CONTACT_GROUP]; i++) {
-        all->gap[i] = new->sorted[i].gap;
-        all->item[i] = new->sorted[i].item;
-        all->slot[i] = new->sorted[i].pair;
+    sort_new(new, start);
+    for (int l = 0; l < CONTACT_GROUP; l++) {
+        to->first[l] = count;
+        count = merge_lane(all, l, new, start[l], start[l + 1], to, count);
     }
+    to->first[CONTACT_GROUP] = count;
+    memcpy(all->first, to->first, sizeof all->first);
+    memcpy(all->gap, to->gap, (size_t)count * sizeof *all->gap);
+    memcpy(all->item, to->item, (size_t)count * sizeof *all->item);
+    memcpy(all->slot, to->slot, (size_t)count * sizeof *all->slot);
     new->count = 0;
     return 0;
 }
@@ -109,5 +140,6 @@ void contact_sorting_free(ContactSorting *sorting)
     memory_free(sorting->candidate);
     memory_free(sorting->sorted);
     memory_free(sorting->used);
+    contact_candidates_free(&sorting->merged);
     *sorting = (ContactSorting){0};
 }

@@ -35,8 +35,9 @@ typedef struct ContactCandidates {
 /* Room for what changes candidates; of one thread. */
 typedef struct ContactSorting {
     ContactCandidate *candidate; /* new ones, as found */
-    ContactCandidate *sorted;
-    unsigned char *used; /* by slot: a pair has it */
+    ContactCandidate *sorted;    /* those by lane and item */
+    ContactCandidates merged;    /* with the old ones */
+    unsigned char *used;         /* by slot: a pair has it */
     int32_t count;
     size_t candidate_capacity, sorted_capacity, used_capacity;
 } ContactSorting;

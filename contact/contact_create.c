@@ -71,6 +71,7 @@ void contact_free(ContactLoop *loop)
         memory_free(loop->runs[i].line_wing);
         memory_free(loop->runs[i].line_place);
         memory_free(loop->runs[i].sharp);
+        contact_records_free(&loop->runs[i]);
     }
     entities_free(loop->entities, loop->model);
     contact_grid_free(&loop->grid);
@@ -85,14 +86,15 @@ void contact_free(ContactLoop *loop)
         memory_free(loop->parts[k].other);
         memory_free(loop->parts[k].faces);
         memory_free(loop->parts[k].edges);
+        memory_free(loop->parts[k].push);
         memory_free(loop->parts[k].pull);
+        memory_free(loop->parts[k].pull_cycle);
         memory_free(loop->parts[k].found.item);
         memory_free(loop->parts[k].place);
     }
     memory_free(loop->parts);
     memory_free(loop->written);
-    memory_free(loop->room);
-    memory_free(loop->firm);
+    memory_free(loop->node);
     memory_free(loop->covered);
     memory_free(loop->around);
     memory_free(loop->pulled);
@@ -229,6 +231,8 @@ static int run_create(ContactLoop *loop, int i)
     run->line_place = memory_alloc((size_t)c->edge_count + 1, sizeof *run->line_place);
     run->sharp = memory_alloc((size_t)c->edge_count / CONTACT_GROUP + 1, sizeof *run->sharp);
     if (!run->line_body || !run->line_shell || !run->line_wing || !run->line_place || !run->sharp) return -1;
+    if (contact_records_create(run)) return -1;
+    contact_records_fill(run, loop->model);
     return list_create(&run->faces, c->node_count) || list_create(&run->edges, c->edge_count) ||
                    groups_create(run, loop->model->node_count)
                ? -1
@@ -242,6 +246,7 @@ static void choose_kernels(ContactLoop *loop)
     loop->kernels = level == 4 ? &near_kernels_v4 : level == 3 ? &near_kernels_v3 : &near_kernels_v2;
     loop->motion_kernels = level == 4 ? &motion_kernels_v4 : level == 3 ? &motion_kernels_v3 : &motion_kernels_v2;
     loop->sharp_kernels = level == 4 ? &sharp_kernels_v4 : level == 3 ? &sharp_kernels_v3 : &sharp_kernels_v2;
+    loop->push_kernels = level == 4 ? &push_kernels_v4 : level == 3 ? &push_kernels_v3 : &push_kernels_v2;
     loop->meet_kernels = level == 4 ? &meet_kernels_v4 : level == 3 ? &meet_kernels_v3 : &meet_kernels_v2;
     loop->grid.overlap = loop->motion_kernels->overlap;
 }
@@ -263,18 +268,18 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
     loop->skin.from = memory_alloc(3 * (size_t)model->node_count, sizeof(double));
     loop->skin.of = memory_alloc((size_t)model->node_count / CONTACT_NODE_CHUNK + 1, sizeof(double));
     loop->written = memory_alloc((size_t)model->node_count / CONTACT_NODE_CHUNK + 1, 1);
-    loop->room = memory_alloc(6 * (size_t)model->node_count, sizeof(double));
+    loop->node = memory_alloc((size_t)model->node_count, sizeof *loop->node);
     loop->around = memory_alloc((size_t)model->node_count, sizeof(double));
-    loop->firm = memory_alloc((size_t)model->node_count, sizeof(double));
     loop->covered = memory_alloc((size_t)model->node_count, 1);
     loop->pulled = contact_list_pulled(model);
     loop->resultant = memory_alloc(3 * (size_t)model->contact_count + 1, sizeof(double));
     if (model->entity_count > 0) loop->entities = entities_create(model, state);
     int status = loop->runs && loop->parts && loop->motions && loop->skin.from && loop->skin.of && loop->written &&
-                         loop->resultant && loop->room && loop->around && loop->firm && loop->covered && loop->pulled &&
+                         loop->resultant && loop->node && loop->around && loop->covered && loop->pulled &&
                          (model->entity_count == 0 || loop->entities)
                      ? 0
                      : -1;
+    for (int n = 0; !status && n < model->node_count; n++) loop->node[n].inverse = model->contact_inverse[n];
     for (int i = 0; !status && i < model->contact_count; i++) status = run_create(loop, i);
     if (model->has_erosion) {
         loop->mark = memory_alloc((size_t)model->node_count + 1, 1);
@@ -286,8 +291,8 @@ ContactLoop *contact_create(const Model *model, State *state, double *rows, cons
         contact_fill_room(loop, 0, 1);
         restore_memories(loop);
         for (int n = 0; n < model->node_count; n++) {
-            loop->corner[CONTACT_ROW * (ptrdiff_t)n + 3] = state->contact_load[2 * (ptrdiff_t)n];
-            loop->firm[n] = state->contact_load[2 * (ptrdiff_t)n + 1];
+            loop->node[n].load = state->contact_load[2 * (ptrdiff_t)n];
+            loop->node[n].firm = state->contact_load[2 * (ptrdiff_t)n + 1];
         }
         memset(loop->written, 1, (size_t)model->node_count / CONTACT_NODE_CHUNK + 1);
     }

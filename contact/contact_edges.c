@@ -1,6 +1,6 @@
 /* Edges against edges: where two lines cross, on which side the first passes the second. */
 #include "contact/contact_geometry.h"
-#include "contact/contact_law.h"
+#include "contact/contact_push.h"
 #include "contact/contact_sides.h"
 #include "solver/memory.h"
 
@@ -69,79 +69,80 @@ static double along_memory(const ContactMemory *m, const double normal[3])
 }
 
 /* Lane l of a block: a pair that crosses, or knows something. */
-static void meet_pair(ContactLoop *loop, ContactRun *run, const ContactLaw *law, const MeetEdges *block, int l,
-                      ContactSums *sums, ContactForce *forces, ContactPassages *passages)
+static void meet_pair(const ContactLoop *loop, const ContactRun *run, const ContactLaw *law, const MeetEdges *block,
+                      int l, ContactPart *part, ContactPassages *passages)
 {
     const ContactInterface *c = run->contact;
     const int e = block->own[l], f = block->other[l];
-    const int32_t *a = c->edge + 2 * (ptrdiff_t)e, *b = c->edge + 2 * (ptrdiff_t)f;
-    const double *inverse = loop->model->contact_inverse;
-    ContactMemory fresh = {0}, *m = block->memory[l];
+    ContactMemory *m = block->memory[l];
     if (!(block->cross >> l & 1)) {
         if (!m) return;
         note_ended(passages, e, f, m);
         *m = (ContactMemory){0};
         return;
     }
-    if (!m && !(contact_moves(inverse, a[0], a + 1, 1) || contact_moves(inverse, b[0], b + 1, 1))) return;
-    if (!m) m = &fresh;
-    ContactTouch t = {.node = {a[0], a[1], b[0], b[1]},
-                      .thickness = block->thickness[l],
-                      .stiffness = c->stiffness[c->edge_side[e] == CONTACT_SIDE_B]};
+    if (!m && !run->edge[e].moves && !run->edge[f].moves) return;
+    ContactTouch t = {.thickness = block->thickness[l], .stiffness = c->stiffness[c->edge_side[e] == CONTACT_SIDE_B]};
     double normal[3];
-    for (int k = 0; k < 4; k++) t.weight[k] = block->weight[k][l];
+    for (int k = 0; k < 4; k++) t.node[k] = block->nodes.node[k][l], t.weight[k] = block->weight[k][l];
     for (int k = 0; k < 3; k++) t.speed[k] = block->speed[k][l], normal[k] = block->normal[k][l];
     double before = block->height[l] - law->before * vector3_dot(t.speed, normal);
     /* the lines' normal turns over where they are parallel: a pair in contact knows its direction */
-    t.side = m->side ? (along_memory(m, normal) < 0.0 ? -1 : 1) : (before > 0.0) - (before < 0.0);
+    t.side = m && m->side ? (along_memory(m, normal) < 0.0 ? -1 : 1) : (before > 0.0) - (before < 0.0);
     if (t.side == 0) return;
     t.gap = t.side * block->height[l];
     for (int k = 0; k < 3; k++) t.direction[k] = t.side * normal[k];
-    ContactForce *out = &forces[sums->count];
-    int counts = contact_push(law, &t, m, out, sums);
-    if (m->side) m->side = t.side;
-    for (int k = 0; k < 3 && m->side; k++) m->direction[k] = (float)t.direction[k];
-    if (m == &fresh && m->side != 0) contact_keep(&run->edges, e, f, m);
-    if (!counts) return;
-    out->blocks = contact_is_sharp(loop, run, e) && contact_is_sharp(loop, run, f);
-    sums->count++;
-    double sign = c->edge_side[e] & CONTACT_SIDE_A ? 1.0 : -1.0;
-    for (int k = 0; k < 3; k++) sums->force[k] += sign * out->force[k];
+    contact_push_add(loop, part, &t, m, e, f);
+}
+
+/* Takes the forces of the group's pairs, and what they remember. */
+static void take_pushed(const ContactLoop *loop, ContactRun *run, const ContactPart *part, ContactSums *sums,
+                        ContactForce *forces)
+{
+    for (int place = 0; place < part->push_count; place++) {
+        const PushPairs *block = &part->push[place / PUSH_LANES];
+        const int l = place % PUSH_LANES, e = block->owner[l], f = block->other[l];
+        ContactForce *out = &forces[sums->count];
+        if (!contact_push_take(&run->edges, block, l, sums, out)) continue;
+        out->blocks = contact_is_sharp(loop, run, e) && contact_is_sharp(loop, run, f);
+        double sign = run->contact->edge_side[e] & CONTACT_SIDE_A ? 1.0 : -1.0;
+        for (int k = 0; k < 3; k++) sums->force[k] += sign * out->force[k];
+    }
 }
 
 /* Puts a pair into the next lane of blocks. */
 static void add_pair(const ContactRun *run, const ContactLaw *law, int e, int f, ContactMemory *m, MeetEdges *block,
                      int place)
 {
-    const ContactInterface *c = run->contact;
+    const ContactEdge *first = &run->edge[e], *second = &run->edge[f];
     const int l = place % MEET_LANES;
     block += place / MEET_LANES;
     for (int k = 0; k < 2; k++) {
-        block->nodes.node[k][l] = c->edge[2 * (ptrdiff_t)e + k];
-        block->nodes.node[2 + k][l] = c->edge[2 * (ptrdiff_t)f + k];
+        block->nodes.node[k][l] = first->node[k];
+        block->nodes.node[2 + k][l] = second->node[k];
     }
     block->own[l] = e;
     block->other[l] = f;
     block->memory[l] = m;
-    block->thickness[l] = run->thinness * (c->edge_radius[e] + c->edge_radius[f]);
+    block->thickness[l] = run->thinness * (run->radius[first->radius] + run->radius[second->radius]);
     block->remembered[l] = m ? law->deepest : 0.0;
     block->slack[l] = m ? SLACK : 0.0;
 }
 
-/* Of the others of edge e [0, count) those that it may cross, and what it remembers, into lanes from place on. Returns
- * the next place. */
+/* Of the others of edge e [0, count) those that it may cross, and what it remembers, into lanes from place on; left:
+ * others of it and of the edges after it. Returns the next place. */
 static int choose_pairs(const ContactLoop *loop, const ContactRun *run, const ContactLaw *law, const MeetStep *step,
-                        int e, const int32_t *other, int count, MeetEdges *block, int place)
+                        int e, const int32_t *other, int count, int left, MeetEdges *block, int place)
 {
-    const ContactInterface *c = run->contact;
     MeetNodes nodes;
     for (int l = 0; l < MEET_LANES; l++)
-        for (int k = 0; k < 2; k++) nodes.node[k][l] = c->edge[2 * (ptrdiff_t)e + k];
+        for (int k = 0; k < 2; k++) nodes.node[k][l] = run->edge[e].node[k];
     for (int first = 0; first < count; first += MEET_LANES) {
         int some = count - first < MEET_LANES ? count - first : MEET_LANES;
         for (int l = 0; l < MEET_LANES; l++)
-            for (int k = 0; k < 2; k++)
-                nodes.node[2 + k][l] = c->edge[2 * (ptrdiff_t)other[l < some ? first + l : first] + k];
+            for (int k = 0; k < 2; k++) nodes.node[2 + k][l] = run->edge[other[l < some ? first + l : first]].node[k];
+        for (int l = some; l < left - first && l < some + MEET_LANES; l++)
+            __builtin_prefetch(&run->edge[other[first + l]]);
         unsigned set = loop->meet_kernels->may_cross(step, &nodes);
         for (int l = 0; l < some; l++) {
             ContactMemory *m = contact_ask(&run->edges, e, other[first + l]);
@@ -221,7 +222,7 @@ static int find_crossings(ContactLoop *loop, ContactRun *run, const ContactLaw *
         return -1;
     for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++)
         count = choose_pairs(loop, run, law, &step, lanes->item[k], part->other + start[k], start[k + 1] - start[k],
-                             part->edges, count);
+                             start[CONTACT_GROUP] - start[k], part->edges, count);
     int blocks = (count + MEET_LANES - 1) / MEET_LANES;
     for (int place = count; place < blocks * MEET_LANES; place++)
         add_pair(run, law, lanes->item[0], lanes->item[0], NULL, part->edges, place);
@@ -244,12 +245,14 @@ void contact_meet_edges(ContactLoop *loop, ContactRun *run, const ContactLaw *la
     if (part->failed || start[CONTACT_GROUP] == 0) return;
     int count = find_crossings(loop, run, law, lanes, part, start);
     ContactForce *forces = count < 0 ? NULL : contact_force_room(part, (size_t)count + 1);
-    if (!forces) {
+    if (!forces || contact_push_begin(part, count)) {
         part->failed = true;
         return;
     }
     for (int place = 0; place < count; place++)
-        meet_pair(loop, run, law, &part->edges[place / MEET_LANES], place % MEET_LANES, sums, forces, passages);
+        meet_pair(loop, run, law, &part->edges[place / MEET_LANES], place % MEET_LANES, part, passages);
+    contact_push_all(loop, law, part);
+    take_pushed(loop, run, part, sums, forces);
     for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++)
         if (start[k + 1] > start[k]) contact_count_held(list, lanes->item[k]);
     part->force_count += (size_t)sums->count;

@@ -179,6 +179,7 @@ void contact_erode(ContactLoop *loop)
         leave_rims(loop, run);
         leave_edges(run);
         leave_nodes(loop, run, whole);
+        contact_records_fill(run, loop->model);
         contact_items(run, items);
         contact_groups_renew(&run->nodes, &items[0]);
         contact_groups_renew(&run->triangles, &items[1]);

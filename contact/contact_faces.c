@@ -1,7 +1,7 @@
 /* Nodes against triangles: the closest point of each candidate, which of them count, on which side the node is, and
  * what it is pushed by. */
 #include "contact/contact_geometry.h"
-#include "contact/contact_law.h"
+#include "contact/contact_push.h"
 #include "contact/contact_sides.h"
 #include "solver/memory.h"
 
@@ -83,25 +83,43 @@ static void keep_nearest(NearFace *near, int count)
         if (near[i].kept && !near[i].memory) inherit(near, count, i);
 }
 
-/* Adds the normal of triangle t, weighted at one of its corners or, corner -1, of unit length. */
-static void add_normal(const ContactInterface *c, const double *x, int t, int32_t corner, double sum[3])
+/* Normal at corner p of a triangle, whose others are q and r. */
+static void corner_normal(const double *x, int32_t p, int32_t q, int32_t r, double u[3], double w[3], double n[3])
 {
-    const int32_t *node = c->triangle + 3 * (ptrdiff_t)t;
-    int first = corner == node[1] ? 1 : corner == node[2] ? 2 : 0;
-    const double *p = x + 3 * (ptrdiff_t)node[first];
-    double u[3], w[3], n[3];
-    vector3_subtract(x + 3 * (ptrdiff_t)node[(first + 1) % 3], p, u);
-    vector3_subtract(x + 3 * (ptrdiff_t)node[(first + 2) % 3], p, w);
+    vector3_subtract(x + 3 * (ptrdiff_t)q, x + 3 * (ptrdiff_t)p, u);
+    vector3_subtract(x + 3 * (ptrdiff_t)r, x + 3 * (ptrdiff_t)p, w);
     vector3_cross(u, w, n);
-    double square = vector3_dot(n, n), scale = vector3_dot(u, u) * vector3_dot(w, w);
+}
+
+/* Adds the normals of the triangles at a node, of length sine of the angle over the sides. */
+static void add_fan(const ContactRun *run, const double *x, int32_t node, double sum[3])
+{
+    const ContactInterface *c = run->contact;
+    for (int32_t k = c->fan_start[node]; k < c->fan_start[node + 1]; k++) {
+        const int32_t *next = run->ring + 2 * (ptrdiff_t)k;
+        double u[3], w[3], n[3];
+        corner_normal(x, node, next[0], next[1], u, w, n);
+        if (!(vector3_dot(n, n) > 0.0)) continue;
+        double scale = 1.0 / (vector3_dot(u, u) * vector3_dot(w, w));
+        for (int i = 0; i < 3; i++) sum[i] += scale * n[i];
+    }
+}
+
+/* Adds the unit normal of a triangle. */
+static void add_triangle(const ContactRun *run, const double *x, int t, double sum[3])
+{
+    const int32_t *corner = run->triangle[t].corner;
+    double u[3], w[3], n[3];
+    corner_normal(x, corner[0], corner[1], corner[2], u, w, n);
+    double square = vector3_dot(n, n);
     if (!(square > 0.0)) return;
-    scale = corner < 0 ? 1.0 / sqrt(square) : 1.0 / scale;
-    for (int k = 0; k < 3; k++) sum[k] += scale * n[k];
+    double scale = 1.0 / sqrt(square);
+    for (int i = 0; i < 3; i++) sum[i] += scale * n[i];
 }
 
 /* Which side of the surface the node is on, seen from the edge or corner closest to it: that of the mean normal of the
  * triangles there, which no fold however sharp turns over (eq. C1a). 0: on it. */
-static int side_of_feature(const ContactInterface *c, const double *x, const NearFace *f, double n[3])
+static int side_of_feature(const ContactRun *run, const double *x, const NearFace *f, double n[3])
 {
     n[0] = n[1] = n[2] = 0.0;
     int corners = 0, place = 0;
@@ -110,12 +128,11 @@ static int side_of_feature(const ContactInterface *c, const double *x, const Nea
         if (f->at.feature >> k & 1) place = k;
     }
     if (corners == 1) {
-        int32_t node = f->at.corner[place];
-        for (int32_t k = c->fan_start[node]; k < c->fan_start[node + 1]; k++) add_normal(c, x, c->fan[k], node, n);
+        add_fan(run, x, f->at.corner[place], n);
     } else {
-        int other = c->neighbour[3 * f->triangle + (f->at.feature == 3 ? 2 : f->at.feature == 5 ? 1 : 0)];
-        add_normal(c, x, f->triangle, -1, n);
-        if (other >= 0) add_normal(c, x, other, -1, n);
+        int other = run->triangle[f->triangle].neighbour[f->at.feature == 3 ? 2 : f->at.feature == 5 ? 1 : 0];
+        add_triangle(run, x, f->triangle, n);
+        if (other >= 0) add_triangle(run, x, other, n);
     }
     vector3_normalize(n);
     double height = vector3_dot(n, f->at.toward);
@@ -124,23 +141,23 @@ static int side_of_feature(const ContactInterface *c, const double *x, const Nea
 
 /* Gap and direction by the side remembered, or found: that of a step ago, as far as the relative velocity tells. False
  * if the pair is none: it has gone round a rim, or its side is not known yet. */
-static bool take_side(const ContactLaw *law, const ContactInterface *c, const double *x, NearFace *f, ContactMemory *m,
+static bool take_side(const ContactLaw *law, const ContactRun *run, const double *x, NearFace *f, int known,
                       ContactTouch *t)
 {
     bool inside = f->at.feature == 7 || f->at.distance == 0.0;
     double mean[3];
-    int now = inside ? (f->at.height > 0.0) - (f->at.height < 0.0) : side_of_feature(c, x, f, mean);
+    int now = inside ? (f->at.height > 0.0) - (f->at.height < 0.0) : side_of_feature(run, x, f, mean);
     const double *normal = inside ? f->at.normal : mean;
     double height = inside ? f->at.height : vector3_dot(mean, f->at.toward);
     double before = height - law->before * vector3_dot(t->speed, normal);
-    t->side = m->side ? m->side : f->rim ? now : before > 0.0 ? 1 : before < 0.0 ? -1 : now;
+    t->side = known ? known : f->rim ? now : before > 0.0 ? 1 : before < 0.0 ? -1 : now;
     if (t->side == 0) return false;
     if (inside) {
         t->gap = t->side * f->at.height;
         for (int k = 0; k < 3; k++) t->direction[k] = t->side * f->at.normal[k];
         return true;
     }
-    if (f->rim && m->side && now != m->side && now != 0) return false;
+    if (f->rim && known && now != known && now != 0) return false;
     if (f->rim || now == t->side || now == 0) {
         t->gap = f->at.distance;
         for (int k = 0; k < 3; k++) t->direction[k] = f->at.toward[k] / f->at.distance;
@@ -156,7 +173,7 @@ static bool take_side(const ContactLaw *law, const ContactInterface *c, const do
 static int look_around(const ContactLoop *loop, const ContactRun *run, int i, const ContactPart *part, int first,
                        int end, NearFace *near)
 {
-    const double *inverse = loop->model->contact_inverse;
+    bool moves = loop->node[run->contact->node[i]].inverse > 0.0;
     int count = 0;
     for (int place = first; place < end; place++) {
         const MeetFaces *block = &part->faces[place / MEET_LANES];
@@ -173,7 +190,7 @@ static int look_around(const ContactLoop *loop, const ContactRun *run, int i, co
             f->at.distance = block->distance[l];
             f->at.feature = (int)block->feature[l];
             f->counts = m || block->touch >> l & 1;
-            count += m || contact_moves(inverse, run->contact->node[i], f->at.corner, 3);
+            count += m || moves || run->triangle[f->triangle].moves;
         } else if (m) {
             *m = (ContactMemory){0};
         }
@@ -182,23 +199,22 @@ static int look_around(const ContactLoop *loop, const ContactRun *run, int i, co
 }
 
 /* Does the closest point lie on the surface's rim? An edge between two corners of the rim may be none of it. */
-static bool is_on_rim(const ContactInterface *c, const NearFace *f)
+static bool is_on_rim(const ContactTriangle *t, const NearFace *f)
 {
-    const ptrdiff_t first = 3 * (ptrdiff_t)f->triangle;
     if (f->at.feature == 7) return false;
     for (int k = 0; k < 3; k++) {
-        if (f->at.feature == 1 << k) return c->corner_rim[first + k];
-        if (f->at.feature == (7 & ~(1 << k))) return c->neighbour[first + k] < 0;
+        if (f->at.feature == 1 << k) return t->rims >> k & 1;
+        if (f->at.feature == (7 & ~(1 << k))) return t->neighbour[k] < 0;
     }
     return false;
 }
 
-/* One near triangle: the node's pair with it, pushed. */
-static void meet_face(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, NearFace *f, ContactSums *sums,
-                      ContactForce *forces)
+/* One near triangle: the node's pair with it is to be pushed. */
+static void add_face(const ContactLoop *loop, const ContactRun *run, const ContactLaw *law, int i, NearFace *f,
+                     ContactPart *part)
 {
     const ContactInterface *c = run->contact;
-    ContactMemory fresh = {0}, *m = f->memory;
+    ContactMemory *m = f->memory;
     ContactTouch t = {.node = {c->node[i], f->at.corner[0], f->at.corner[1], f->at.corner[2]},
                       .weight = {1.0},
                       .thickness = f->block->thickness[f->lane],
@@ -209,32 +225,38 @@ static void meet_face(ContactLoop *loop, ContactRun *run, const ContactLaw *law,
         f->at.normal[k] = f->block->normal[k][f->lane];
         f->at.toward[k] = f->block->toward[k][f->lane];
     }
-    f->rim = is_on_rim(c, f);
-    if (!f->kept || !take_side(law, c, loop->state->x, f, m ? m : &fresh, &t)) {
+    f->rim = is_on_rim(&run->triangle[f->triangle], f);
+    if (!f->kept || !take_side(law, run, loop->state->x, f, m ? m->side : 0, &t)) {
         if (m) *m = (ContactMemory){0};
         return;
     }
-    ContactForce *out = &forces[sums->count];
-    int counts = contact_push(law, &t, m ? m : &fresh, out, sums);
-    if (m && m->side != 0 && -m->gap > run->faces.depth[i]) run->faces.depth[i] = -m->gap;
-    if (!m && fresh.side != 0) contact_keep(&run->faces, i, f->triangle, &fresh);
-    if (!counts) return;
-    sums->count++;
-    double sign = c->node_side[i] & CONTACT_SIDE_A ? 1.0 : -1.0;
-    for (int a = 0; a < 3; a++) sums->force[a] += sign * out->force[a];
+    contact_push_add(loop, part, &t, m, i, f->triangle);
 }
 
 /* One node with what is near it or in contact with it. */
-static void meet_node(ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, const ContactPart *part,
-                      int first, int end, ContactSums *sums, ContactForce *forces)
+static void meet_node(const ContactLoop *loop, ContactRun *run, const ContactLaw *law, int i, ContactPart *part,
+                      int first, int end)
 {
     NearFace near[MOST_NEAR];
     int count = look_around(loop, run, i, part, first, end, near);
     run->faces.depth[i] = 0.0;
     keep_nearest(near, count);
     for (int k = 0; k < count; k++)
-        if (near[k].memory || (near[k].kept && near[k].counts)) meet_face(loop, run, law, i, &near[k], sums, forces);
-    contact_count_held(&run->faces, i);
+        if (near[k].memory || (near[k].kept && near[k].counts)) add_face(loop, run, law, i, &near[k], part);
+}
+
+/* Takes the forces of the group's pairs, and what they remember. */
+static void take_pushed(ContactRun *run, const ContactPart *part, ContactSums *sums, ContactForce *forces)
+{
+    for (int place = 0; place < part->push_count; place++) {
+        const PushPairs *block = &part->push[place / PUSH_LANES];
+        const int l = place % PUSH_LANES, i = block->owner[l];
+        ContactForce *out = &forces[sums->count];
+        bool counts = contact_push_take(&run->faces, block, l, sums, out);
+        if (block->keep >> l & 1 && -block->gap[l] > run->faces.depth[i]) run->faces.depth[i] = -(float)block->gap[l];
+        double sign = run->contact->node_side[i] & CONTACT_SIDE_A ? 1.0 : -1.0;
+        for (int a = 0; a < 3 && counts; a++) sums->force[a] += sign * out->force[a];
+    }
 }
 
 /* No node of the group has anything near it. */
@@ -243,20 +265,25 @@ static void forget_depths(ContactList *list, const ContactLanes *lanes)
     for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) list->depth[lanes->item[k]] = 0.0;
 }
 
-/* Puts the others of node i into lanes of blocks from place on. */
-static void add_others(const ContactRun *run, int i, const int32_t *other, int count, MeetFaces *faces, int place)
+/* Candidates before its turn that a triangle is asked for. */
+enum { ASK_AHEAD = 12 };
+
+/* Puts the others of node i into lanes of blocks from place on; left: others of it and of the nodes after it. */
+static void add_others(const ContactRun *run, int i, const int32_t *other, int count, int left, MeetFaces *faces,
+                       int place)
 {
     const ContactInterface *c = run->contact;
     double depth = run->faces.depth[i]; /* behind a surface: the next triangle may be as far away */
     for (int k = 0; k < count; k++, place++) {
         MeetFaces *block = &faces[place / MEET_LANES];
         const int l = place % MEET_LANES;
-        const int32_t *corner = c->triangle + 3 * (ptrdiff_t)other[k];
+        const ContactTriangle *t = &run->triangle[other[k]];
+        if (k + ASK_AHEAD < left) __builtin_prefetch(&run->triangle[other[k + ASK_AHEAD]]);
         ContactMemory *m = contact_ask(&run->faces, i, other[k]);
         block->nodes.node[0][l] = c->node[i];
-        for (int a = 0; a < 3; a++) block->nodes.node[a + 1][l] = corner[a];
+        for (int a = 0; a < 3; a++) block->nodes.node[a + 1][l] = t->corner[a];
         block->memory[l] = m;
-        block->thickness[l] = run->thinness * (c->node_radius[i] + c->triangle_radius[other[k]]);
+        block->thickness[l] = run->thinness * (c->node_radius[i] + run->radius[t->radius]);
         block->depth[l] = depth;
         block->remembered[l] = m ? contact_deepest(c) : 0.0;
     }
@@ -270,7 +297,8 @@ static int find_closest(const ContactLoop *loop, const ContactRun *run, const Co
     int count = start[CONTACT_GROUP], blocks = (count + MEET_LANES - 1) / MEET_LANES;
     if (memory_reserve((void **)&part->faces, &part->faces_capacity, (size_t)blocks, sizeof *part->faces)) return -1;
     for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++)
-        add_others(run, lanes->item[k], part->other + start[k], start[k + 1] - start[k], part->faces, start[k]);
+        add_others(run, lanes->item[k], part->other + start[k], start[k + 1] - start[k], count - start[k], part->faces,
+                   start[k]);
     for (int place = count; place < blocks * MEET_LANES; place++)
         for (int a = 0; a < 4; a++)
             part->faces[place / MEET_LANES].nodes.node[a][place % MEET_LANES] = run->contact->node[lanes->item[0]];
@@ -299,13 +327,17 @@ void contact_meet_faces(ContactLoop *loop, ContactRun *run, const ContactLaw *la
         return;
     }
     ContactForce *forces = contact_force_room(part, (size_t)CONTACT_GROUP * MOST_NEAR);
-    if (!forces) return;
+    if (!forces || contact_push_begin(part, CONTACT_GROUP * MOST_NEAR)) return;
+    for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++)
+        if (start[k + 1] == start[k])
+            list->depth[lanes->item[k]] = 0.0;
+        else
+            meet_node(loop, run, law, lanes->item[k], part, start[k], start[k + 1]);
+    contact_push_all(loop, law, part);
+    take_pushed(run, part, sums, forces);
     for (int k = 0; k < CONTACT_GROUP && lanes->item[k] >= 0; k++) {
         int i = lanes->item[k];
-        if (start[k + 1] == start[k])
-            list->depth[i] = 0.0;
-        else
-            meet_node(loop, run, law, i, part, start[k], start[k + 1], sums, forces);
+        if (start[k + 1] > start[k]) contact_count_held(list, i);
         list->deepest[group] = larger(list->deepest[group], list->depth[i]);
     }
     if (list->deepest[group] > list->allowed[group]) part->deep = true;

@@ -11,6 +11,7 @@
 #include "contact/meet_kernels.h"
 #include "contact/motion_kernels.h"
 #include "contact/near_kernels.h"
+#include "contact/push_kernels.h"
 #include "contact/sharp_kernels.h"
 #include "elements/kernels.h"
 #include "solver/model.h"
@@ -18,7 +19,7 @@
 #include "solver/team.h"
 
 enum {
-    CONTACT_ROW = 8,    /* doubles of a row of corner sums, elements/kernels.h: force, load, four zeros */
+    CONTACT_ROW = 8,    /* doubles of a row of corner sums, elements/kernels.h: force, five zeros */
     CONTACT_SLOTS = 16, /* pairs that a node or an edge can be in contact by */
 };
 
@@ -164,6 +165,28 @@ static inline void contact_count_held(ContactList *list, int owner)
     list->held[owner] = (unsigned char)count;
 }
 
+/* Penetration at which a pair is given up. */
+static inline double contact_deepest(const ContactInterface *c)
+{
+    return 10.0 * c->thickest > 0.5 * c->longest_side ? 10.0 * c->thickest : 0.5 * c->longest_side;
+}
+
+/* One triangle, in half a line of the cache (contact/contact_records.c). */
+typedef struct ContactTriangle {
+    int32_t corner[3];
+    int32_t neighbour[3]; /* as ContactInterface.neighbour */
+    int32_t radius;       /* its place in ContactRun.radius */
+    unsigned char rims;   /* bits: corners on the surface's rim */
+    bool moves;           /* one of them */
+} ContactTriangle;
+
+/* One edge. */
+typedef struct ContactEdge {
+    int32_t node[2];
+    int32_t radius; /* as above */
+    bool moves;
+} ContactEdge;
+
 /* One interface in the loop. */
 typedef struct ContactRun {
     const ContactInterface *contact; /* the model's, or living */
@@ -175,6 +198,10 @@ typedef struct ContactRun {
     int32_t *line_wing;                    /* far corners of the triangles at each edge (edge_count x 2) */
     int32_t
         *line_place; /* group x CONTACT_GROUP + lane of each edge; that of the lower group owns a pair (edge_count) */
+    ContactTriangle *triangle; /* (triangle_count) */
+    ContactEdge *edge;         /* (edge_count) */
+    int32_t *ring;  /* in each triangle of the interface's fan the two corners after the node (triangle_count x 6) */
+    double *radius; /* of triangles and edges [L] */
     _Atomic uint64_t *sharp; /* ContactSharp of each group of edges as last asked for, with its cycle (groups) */
     bool alive, asleep;      /* asleep: it is not alive and has forgotten */
     double thinness;         /* factor on the radii, of LCIDAB */
@@ -186,12 +213,6 @@ typedef struct ContactStep {
     double time, before, next; /* t_n, dt_{n-1/2}, dt_{n+1/2} */
     double longer;             /* what contact reckons with, eq. C4b: not less than any of the two */
 } ContactStep;
-
-/* Acceleration of a node by its elements and the gas. */
-typedef struct ContactPull {
-    double a[3];   /* [L/T^2] */
-    int64_t cycle; /* in which it was formed, ContactLoop.cycle */
-} ContactPull;
 
 /* Groups that a thread takes at a time: neighbouring ones are busy alike, and what a thread asks for they share. */
 enum { CONTACT_TURN = 4 };
@@ -228,10 +249,13 @@ typedef struct ContactPart {
     ContactLook look;
     MeetFaces *faces; /* pairs of one group of owners in lanes */
     MeetEdges *edges;
-    size_t faces_capacity, edges_capacity;
-    ContactPull *pull; /* what its pairs have asked for (node_count) */
-    bool deep;         /* a group is deeper than allowed: a search is due */
-    bool failed;       /* no memory */
+    PushPairs *push; /* its pairs that are near (push_count) */
+    int push_count;
+    size_t faces_capacity, edges_capacity, push_capacity;
+    ContactPull *pull;   /* what its pairs have asked for (node_count) */
+    int64_t *pull_cycle; /* in which each block of them was formed */
+    bool deep;           /* a group is deeper than allowed: a search is due */
+    bool failed;         /* no memory */
 } ContactPart;
 
 /* Nodes at the last search, and how far each chunk of them may go until the next (contact/contact_skin.h). */
@@ -248,8 +272,8 @@ typedef struct ContactLoop {
     ContactRun *runs;              /* (contact_count) */
     double *resultant;             /* force on side A of each at t_n (contact_count x 3) [F] */
     const double *rows, *pressure; /* of all corner sums; of the pressure sets */
-    double *corner;         /* rows with contact forces x, y, z and load of each node (node_count x CONTACT_ROW) */
-    ContactMotion *motions; /* (motion_count) */
+    double *corner;                /* rows with contact forces x, y, z of each node (node_count x CONTACT_ROW) */
+    ContactMotion *motions;        /* (motion_count) */
     int motion_count;
     unsigned char *written; /* chunks of nodes whose rows of corner are not zero */
     double fastest;         /* no node is faster now */
@@ -267,10 +291,9 @@ typedef struct ContactLoop {
     const MotionKernels *motion_kernels;
     const SharpKernels *sharp_kernels;
     const MeetKernels *meet_kernels;
+    const PushKernels *push_kernels;
     size_t box_capacity;
-    double *room; /* as of State.contact_formed: (w dt)^2 that contact may add at a node in direction d is 1/(d . room
-                   * d); xx yy zz xy yz zx (node_count x 6) */
-    double *firm; /* load of each node by its pairs at the limit of eq. C13 (node_count) */
+    ContactNode *node;           /* what a pair needs to know of each node (node_count) */
     unsigned char *covered;      /* nodes in contact, for leakage (node_count) */
     double *around;              /* workspace: mass of the elements at each node (node_count) */
     unsigned char *pulled;       /* of the special nodes: contact_list_pulled (moving - free count) */
@@ -312,8 +335,17 @@ typedef struct ContactSharp {
 ContactSharp contact_sharp(const ContactLoop *loop, const ContactRun *run, int group);
 bool contact_is_sharp(const ContactLoop *loop, const ContactRun *run, int edge);
 
+/* Room for what the run keeps of triangles and edges; 0, or -1 without memory. */
+int contact_records_create(ContactRun *run);
+/* Takes it from the interface. */
+void contact_records_fill(ContactRun *run, const Model *model);
+void contact_records_free(ContactRun *run);
+
 /* The room follows the surface's shape some cycles late. All threads of the team. */
 void contact_renew_room(ContactLoop *loop, int thread, Team *team);
+
+/* Forms a node's acceleration by elements and gas, as far as its supports leave it (contact/contact_pull.c). */
+void contact_form_pull(const ContactLoop *loop, int32_t node, double a[3]);
 
 /* Fills the room of a thread's share of the nodes at State.contact_formed. */
 void contact_fill_room(ContactLoop *loop, int thread, int threads);

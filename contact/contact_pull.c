@@ -1,5 +1,5 @@
 /* Acceleration of special nodes in contact: what elements and gas do to a node that supports may hold (eq. C13). */
-#include "contact/contact_law.h"
+#include "contact/contact_loop.h"
 #include "solver/memory.h"
 
 /* Nodes with supports, but not those that follow bodies, edges or partners. */
@@ -35,32 +35,32 @@ unsigned char *contact_list_pulled(const Model *m)
 }
 
 /* Sum of the forces of elements and gas. */
-static void sum_forces(const ContactLaw *law, int32_t node, double sum[3])
+static void sum_forces(const ContactLoop *loop, int32_t node, double sum[3])
 {
-    const Model *m = law->model;
+    const Model *m = loop->model;
     for (int i = 0; i < 3; i++) sum[i] = 0.0;
     for (int32_t k = m->node_row_start[node]; k < m->node_row_start[node + 1]; k++) {
         int32_t row = m->node_row[k];
         if (row >= m->contact_row) break;
-        const double *force = law->rows + ROW_SIZE * (ptrdiff_t)row;
-        double pressure = m->row_set[row] >= 0 ? law->pressure[m->row_set[row]] : 0.0;
+        const double *force = loop->rows + ROW_SIZE * (ptrdiff_t)row;
+        double pressure = m->row_set[row] >= 0 ? loop->pressure[m->row_set[row]] : 0.0;
         for (int i = 0; i < 3; i++) sum[i] += force[i] + pressure * force[ROW_AREA + i];
     }
 }
 
 /* 0 of special nodes but for those that supports alone make special. */
-void contact_form_pull(const ContactLaw *law, int32_t node, double a[3])
+void contact_form_pull(const ContactLoop *loop, int32_t node, double a[3])
 {
-    const Model *m = law->model;
+    const Model *m = loop->model;
     bool special = node >= m->free_count;
-    if (special && (node >= m->moving_count || !law->pulled[node - m->free_count])) {
+    if (special && (node >= m->moving_count || !loop->pulled[node - m->free_count])) {
         a[0] = a[1] = a[2] = 0.0;
         return;
     }
-    sum_forces(law, node, a);
+    sum_forces(loop, node, a);
     if (special) {
         RateRows held = {0};
-        constraints_held(&m->constraints, node, law->time, &held);
+        constraints_held(&m->constraints, node, loop->step.time, &held);
         rate_rows_apply(&held, a);
     }
     for (int i = 0; i < 3; i++) a[i] *= m->inverse_mass[node];

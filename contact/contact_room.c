@@ -62,7 +62,7 @@ static void add_element(ContactLoop *loop, int e, int32_t first, int32_t end)
     for (int k = 0; k < corners; k++) {
         if (node[k] < first || node[k] >= end) continue;
         loop->around[node[k]] += weight;
-        if (flat) add_square(loop->room + 6 * (ptrdiff_t)node[k], n, weight);
+        if (flat) add_square(loop->node[node[k]].room, n, weight);
     }
 }
 
@@ -72,7 +72,7 @@ void contact_fill_room(ContactLoop *loop, int thread, int threads)
     double *mass = loop->around, elements = stiffest_elements(m), rest = 0.5 * contact_room_left(m);
     int32_t first = contact_first_of(m->node_count, thread, threads),
             end = contact_first_of(m->node_count, thread + 1, threads);
-    memset(loop->room + 6 * (ptrdiff_t)first, 0, 6 * (size_t)(end - first) * sizeof *loop->room);
+    for (int32_t n = first; n < end; n++) memset(loop->node[n].room, 0, sizeof loop->node[n].room);
     memset(mass + first, 0, (size_t)(end - first) * sizeof *mass);
     for (int e = 0; e < m->element_count; e++) add_element(loop, e, first, end);
     for (int b = 0; b < m->rigid_body_count; b++) /* what is rigid has no stiffness of its own */
@@ -80,10 +80,10 @@ void contact_fill_room(ContactLoop *loop, int thread, int threads)
             int32_t node = m->rigid_bodies[b].node[i];
             if (node < first || node >= end) continue;
             mass[node] = 1.0;
-            memcpy(loop->room + 6 * (ptrdiff_t)node, (double[6]){1.0, 1.0, 1.0}, 6 * sizeof *loop->room);
+            memcpy(loop->node[node].room, (double[6]){1.0, 1.0, 1.0}, 6 * sizeof(double));
         }
     for (int32_t n = first; n < end; n++) {
-        double *room = loop->room + 6 * (ptrdiff_t)n, scale = mass[n] > 0.0 ? elements / mass[n] : 0.0;
+        double *room = loop->node[n].room, scale = mass[n] > 0.0 ? elements / mass[n] : 0.0;
         for (int k = 0; k < 6; k++) room[k] = scale * room[k] + (k < 3 ? rest : 0.0);
         invert(room);
     }

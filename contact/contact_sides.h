@@ -31,14 +31,6 @@ static inline bool contact_sides_meet(int a, int b)
     return ((a & CONTACT_SIDE_A) && (b & CONTACT_SIDE_B)) || ((a & CONTACT_SIDE_B) && (b & CONTACT_SIDE_A));
 }
 
-/* Does any of these nodes move? */
-static inline bool contact_moves(const double *inverse, int32_t first, const int32_t *other, int others)
-{
-    double sum = inverse[first];
-    for (int k = 0; k < others; k++) sum += inverse[other[k]];
-    return sum > 0.0;
-}
-
 /* A node does not meet its own facet, nor a rigid body itself, nor what is fixed what is fixed. */
 static inline bool contact_node_meets(const Model *model, const ContactInterface *c, int i, int t)
 {

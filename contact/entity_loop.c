@@ -176,13 +176,13 @@ static ContactMasses masses_of(const ContactLoop *loop, const ContactEntity *ent
     ContactMasses masses = {.load = share};
     double inverse = body_mobility(loop, entity->body, hit->turn), worst = 0.0, stiff = INFINITY;
     for (int i = 0; i < 4; i++) {
-        double of_node = loop->model->contact_inverse[t->node[i]], weight = t->weight[i];
-        double own = share * weight, all = loop->corner[CONTACT_ROW * (ptrdiff_t)t->node[i] + 3];
+        const ContactNode *node = &loop->node[t->node[i]];
+        double of_node = node->inverse, weight = t->weight[i], own = share * weight, all = node->load;
         if (weight == 0.0 || of_node == 0.0) continue;
         inverse += weight * weight * of_node;
         all = all > own ? all : own;
         worst = all * of_node > worst ? all * of_node : worst;
-        double own_stiff = contact_room(loop->room + 6 * (ptrdiff_t)t->node[i], t->direction) / (all * of_node);
+        double own_stiff = contact_room(node->room, t->direction) / (all * of_node);
         stiff = own_stiff < stiff ? own_stiff : stiff;
     }
     masses.effective = 1.0 / inverse;
@@ -251,8 +251,7 @@ void entities_push(ContactLoop *loop, int thread, int threads)
     for (int i = 0; i < loop->model->entity_count; i++) {
         EntityRun *run = &loop->entities->runs[i];
         const ContactEntity *entity = run->entity;
-        ContactLaw law = {.model = loop->model,
-                          .before = loop->step.before,
+        ContactLaw law = {.before = loop->step.before,
                           .next = loop->step.next,
                           .longer = loop->step.longer,
                           .sliding = 0.5 * contact_room_left(loop->model),
@@ -280,7 +279,7 @@ void entities_gather(ContactLoop *loop, int32_t first, int32_t end)
                     double *to = loop->corner + CONTACT_ROW * (ptrdiff_t)node;
                     if (weight == 0.0 || node < first || node >= end) continue;
                     for (int a = 0; a < 3; a++) to[a] += weight * hit->force[a];
-                    to[3] += weight * share;
+                    loop->node[node].load += weight * share;
                     loop->covered[node] = 1;
                     loop->written[node / CONTACT_NODE_CHUNK] = 1;
                 }
