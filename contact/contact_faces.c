@@ -14,20 +14,29 @@ typedef struct NearFace {
     const MeetFaces *block; /* where it has been found */
     int lane;
     int32_t triangle;
-    bool rim; /* the closest point is on the surface's rim */
+    int32_t on[2]; /* corners that hold the closest point, of an edge both, else the first of them twice */
+    bool rim;      /* the closest point is on the surface's rim */
     bool kept;
     bool counts; /* it has a memory, or may touch in this step */
 } NearFace;
 
-/* Does triangle g have all the corners on which f's closest point lies? */
+static bool has_corner(const NearFace *f, int32_t node)
+{
+    return (f->at.corner[0] == node) | (f->at.corner[1] == node) | (f->at.corner[2] == node);
+}
+
+/* Does triangle g have all the corners on which f's closest point lies? f's is not inside. */
 static bool shares_feature(const NearFace *f, const NearFace *g)
 {
-    for (int k = 0; k < 3; k++) {
-        int32_t node = f->at.corner[k];
-        if ((f->at.feature & 1 << k) && g->at.corner[0] != node && g->at.corner[1] != node && g->at.corner[2] != node)
-            return false;
-    }
-    return true;
+    return has_corner(g, f->on[0]) & has_corner(g, f->on[1]);
+}
+
+/* Corners that hold the closest point, by feature. */
+static void note_corners(NearFace *f)
+{
+    static const unsigned char first[8] = {0, 0, 1, 0, 2, 0, 1, 0}, second[8] = {0, 0, 1, 1, 2, 2, 2, 0};
+    f->on[0] = f->at.corner[first[f->at.feature]];
+    f->on[1] = f->at.corner[second[f->at.feature]];
 }
 
 /* Of triangles that share the edge or corner closest to the node, the nearest counts; if they are equally far, the one
@@ -189,6 +198,7 @@ static int look_around(const ContactLoop *loop, const ContactRun *run, int i, co
             f->at.height = block->height[l];
             f->at.distance = block->distance[l];
             f->at.feature = (int)block->feature[l];
+            note_corners(f);
             f->counts = m || block->touch >> l & 1;
             count += m || moves || run->triangle[f->triangle].moves;
         } else if (m) {
