@@ -20,8 +20,14 @@ static void mean_velocity(const Model *model, const StepView *view, double veloc
     double mass = 0;
     velocity[0] = velocity[1] = velocity[2] = 0;
     for (int p = 0; p < model->part_count; p++) {
-        mass += model->parts[p].mass;
+        mass += model->parts[p].mass + model->parts[p].point_mass;
         for (int c = 0; c < 3; c++) velocity[c] += view->part_momentum[3 * p + c];
+    }
+    for (int i = 0; i < model->point_mass_count; i++) {
+        const PointMass *point = &model->point_masses[i];
+        if (point->part >= 0) continue;
+        mass += point->mass;
+        for (int c = 0; c < 3; c++) velocity[c] += point->mass * view->v[3 * (ptrdiff_t)point->node + c];
     }
     for (int c = 0; c < 3 && mass > 0; c++) velocity[c] /= mass;
 }

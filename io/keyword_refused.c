@@ -20,8 +20,8 @@ static const KeywordSpec specs[] = {
                              "place and *CONSTRAINED_EXTRA_NODES for nodes on a rigid part"),
     REFUSED("*DEFINE_TABLE", "a fabric takes one curve for each fibre; write the curve of the uniaxial test at the "
                              "strain rate of the problem as *DEFINE_CURVE"),
-    REFUSED("*ELEMENT_MASS", "there is no mass but that of elements; raise RO of the shells around the node, or give a "
-                             "rigid part its mass by *PART_INERTIA"),
+    REFUSED("*ELEMENT_INERTIA", "nodes have no rotations; give a rigid part or nodal rigid body the option INERTIA"),
+    REFUSED("*ELEMENT_MASS_MATRIX", "a mass is the same in all directions; use *ELEMENT_MASS"),
     REFUSED("*ELEMENT_SEATBELT_ACCELEROMETER", "nodout has the accelerations of nodes, rbdout those of rigid bodies"),
     REFUSED("*ELEMENT_SEATBELT_PRETENSIONER", "straps have neither retractors nor pretensioners"),
     REFUSED("*ELEMENT_SEATBELT_RETRACTOR", "straps have neither retractors nor pretensioners"),

@@ -17,10 +17,11 @@ static void write_legend(FILE *ascii, const Model *model)
 static void write_ascii_part(FILE *ascii, const Part *part, double internal, double kinetic, double hourglass,
                              const double *momentum)
 {
+    const double mass = part->mass + part->point_mass;
     double q[3], v[3];
     for (int c = 0; c < 3; c++) {
         q[c] = history_clip(momentum[c]);
-        v[c] = part->mass > 0 ? history_clip(momentum[c] / part->mass) : 0;
+        v[c] = mass > 0 ? history_clip(momentum[c] / mass) : 0;
     }
     fprintf(ascii, part->id < 100000 ? " mat.#=%5d   " : " mat.#=%8d", part->id);
     fprintf(ascii, "          inten=%13.4E     kinen=%13.4E     eroded_ie=%13.4E     eroded_ke=%13.4E\n",
@@ -43,8 +44,8 @@ int results_write_matsum(Results *results, const Model *model, const State *stat
     for (int p = 0; p < model->part_count; p++) {
         const double *momentum = view->part_momentum + 3 * (ptrdiff_t)p;
         fprintf(history->csv.stream, "%.17g,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", time, model->parts[p].id,
-                state->part_energy[p], view->part_kinetic[p], state->part_hourglass[p], model->parts[p].mass,
-                momentum[0], momentum[1], momentum[2]);
+                state->part_energy[p], view->part_kinetic[p], state->part_hourglass[p],
+                model->parts[p].mass + model->parts[p].point_mass, momentum[0], momentum[1], momentum[2]);
         write_ascii_part(history->ascii.stream, &model->parts[p], state->part_energy[p], view->part_kinetic[p],
                          state->part_hourglass[p], momentum);
     }

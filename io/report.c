@@ -27,6 +27,8 @@ void report_write_keywords(const Definitions *d, FILE *stream)
         {"parts (*PART)", d->parts.count},
         {"beams (*ELEMENT_BEAM)", d->beams.count},
         {"discrete elements (*ELEMENT_DISCRETE)", d->discretes.count},
+        {"masses on nodes (*ELEMENT_MASS)", d->masses.count},
+        {"masses on parts (*ELEMENT_MASS_PART)", d->part_masses.count},
         {"sections (*SECTION)",
          d->sections.count + d->solid_sections.count + d->beam_sections.count + d->discrete_sections.count},
         {"materials (*MAT)", d->materials.count},
@@ -102,6 +104,20 @@ static void write_bodies(const Model *model, FILE *stream)
         fprintf(stream, "  and %d more moving rigid parts\n", model->rigid_body_count - LISTED_BODIES);
 }
 
+/* Masses on nodes that count for no part; returns their sum. */
+static double write_point_masses(const Model *model, FILE *stream)
+{
+    double mass = 0.0;
+    int count = 0;
+    for (int i = 0; i < model->point_mass_count; i++) {
+        if (model->point_masses[i].part >= 0) continue;
+        mass += model->point_masses[i].mass;
+        count++;
+    }
+    if (count > 0) fprintf(stream, "  %8s %-8s %9d %12s %13s %13.6g  masses on nodes\n", "-", "-", count, "", "", mass);
+    return mass;
+}
+
 void report_write_parts(const Model *model, FILE *stream)
 {
     double mass = 0.0, area = 0.0;
@@ -112,11 +128,13 @@ void report_write_parts(const Model *model, FILE *stream)
             "title");
     for (int i = 0; i < model->part_count; i++) {
         const Part *part = &model->parts[i];
+        const double whole = part->mass + part->point_mass;
         fprintf(stream, "  %8d %-8s %9d %12.5g %13.6g %13.6g  %s\n", part->id, material_name(part->material_kind),
-                part->element_count, part->thickness, part->area, part->mass, part->title);
-        mass += part->mass;
+                part->element_count, part->thickness, part->area, whole, part->title);
+        mass += whole;
         area += part->area;
     }
+    mass += write_point_masses(model, stream);
     fprintf(stream, "  %8s %-8s %9d %12s %13.6g %13.6g\n", "total", "", model->element_count, "", area, mass);
     write_bodies(model, stream);
 }
@@ -219,6 +237,7 @@ void report_write_conditions(const Model *model, FILE *stream)
         {"classes of body force and damping", model->loads.class_count > 1 ? model->loads.class_count - 1 : 0},
         {"moving rigid bodies", model->rigid_body_count},
         {"springs, cables and trusses", model->link_count},
+        {"masses on nodes", model->point_mass_count},
         {"pairs of nodes that a seam joins", model->seam_count},
         {"places at which nodes are tied", model->ties.count},
     };

@@ -41,6 +41,7 @@ static void lump_masses(Builder *b)
     for (int i = 0; i < b->model->solid_count; i++)
         for (int a = 0; a < 8; a++) b->mass[b->model->solids[i].node[a]] += b->model->solids[i].share[a];
     for (int n = 0; b->link_mass && n < b->node_count; n++) b->mass[n] += b->link_mass[n];
+    for (int i = 0; i < b->point_mass_count; i++) b->mass[b->point_masses[i].node] += b->point_masses[i].mass;
 }
 
 /* Supports, loads, rigid bodies. */
@@ -60,6 +61,8 @@ static int build_movement(Builder *b)
     MotionInput input = {.index = &b->index,
                          .x = b->x,
                          .shell_mass = shell_mass,
+                         .point_mass_count = b->point_mass_count,
+                         .point_masses = b->point_masses,
                          .airbag_count = m->airbag_count,
                          .airbags = bags,
                          .relaxation_phase = b->options->relaxation_phase,
@@ -125,17 +128,9 @@ static void builder_free(Builder *b)
     memory_free(b->contacts);
     motion_free(&b->motion);
     deck_index_free(&b->index);
-    void *blocks[] = {b->x,
-                      b->mass,
-                      b->records,
-                      b->parts,
-                      b->closures,
-                      b->order,
-                      b->wall_node,
-                      b->link_mass,
-                      b->references,
-                      b->implicit,
-                      b->reference_classes.items};
+    void *blocks[] = {
+        b->x,         b->mass,      b->records,      b->parts,      b->closures, b->order,
+        b->wall_node, b->link_mass, b->point_masses, b->references, b->implicit, b->reference_classes.items};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) memory_free(blocks[i]);
 }
 
@@ -173,7 +168,9 @@ static int run_stages(Builder *b)
     status = build_shells(b);
     if (status ? check_reference(b) : build_reference(b)) status = -1;
     if (build_solids(b)) status = -1;
-    if (build_links(b) || status) return -1;
+    if (build_links(b)) status = -1;
+    if (!status && build_masses(b)) status = -1;
+    if (status) return -1;
     errors = b->diagnostics->errors;
     if (build_surfaces(b)) status = -1;
     if (status && b->diagnostics->errors == errors) return -1;
@@ -183,7 +180,7 @@ static int run_stages(Builder *b)
     if (build_entities(b)) status = -1;
     if (build_mass_scaling(b)) status = -1;
     lump_masses(b);
-    if (build_movement(b)) status = -1;
+    if (build_movement(b) || build_point_masses(b)) status = -1;
     if (build_seams(b)) status = -1;
     if (build_ties(b)) status = -1;
     if (build_erosion_parts(b)) status = -1;

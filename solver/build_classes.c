@@ -12,6 +12,7 @@ static const char *const KEYWORD = "*LOAD_BODY";
 typedef struct Recipes {
     ClassCards cards;
     int32_t *class_of_part; /* (part count) */
+    int32_t everywhere;     /* class of what belongs to no part */
     ClassTable table;
 } Recipes;
 
@@ -30,6 +31,8 @@ static int class_parts(const MotionInput *input, Recipes *recipes, Diagnostics *
     BodyClass empty;
     body_class_clear(&empty);
     if (class_table_find(&recipes->table, &empty) < 0) return motion_no_memory(KEYWORD, diagnostics);
+    recipes->everywhere = class_table_find(&recipes->table, &recipes->cards.everywhere);
+    if (recipes->everywhere < 0) return motion_no_memory(KEYWORD, diagnostics);
     for (size_t p = 0; p < parts; p++) {
         if (!body_class_add(&recipes->cards.of_part[p], &recipes->cards.everywhere, 1)) {
             class_report_full(KEYWORD, input->index->definitions->parts.items[p].source, diagnostics);
@@ -41,10 +44,25 @@ static int class_parts(const MotionInput *input, Recipes *recipes, Diagnostics *
     return 0;
 }
 
-/* Calls visit(shares, node, class, mass) for every shell corner. */
-static void visit_corners(const MotionInput *input, const Recipes *recipes, Shares *shares,
+/* The class of a mass on a node: that of the part for which it counts, else what acts everywhere. */
+static int32_t point_class(const MotionInput *input, const Motion *motion, const Recipes *recipes,
+                           const PointMass *point)
+{
+    const int body = motion->node_body[point->node];
+    int32_t part = point->part;
+    if (part < 0 && body >= 0 && !motion->rigid_bodies[body].nodal)
+        part = id_map_find(&input->index->parts, motion->rigid_bodies[body].part_id);
+    return part >= 0 ? recipes->class_of_part[part] : recipes->everywhere;
+}
+
+/* Calls visit(shares, node, class, mass) for every mass on a node and every shell corner. */
+static void visit_corners(const MotionInput *input, const Motion *motion, const Recipes *recipes, Shares *shares,
                           void (*visit)(Shares *, int32_t, int32_t, double))
 {
+    for (int i = 0; i < input->point_mass_count; i++) {
+        const PointMass *point = &input->point_masses[i];
+        visit(shares, point->node, point_class(input, motion, recipes, point), point->mass);
+    }
     const DeckIndex *index = input->index;
     const Definitions *d = index->definitions;
     for (size_t p = 0; p < d->parts.count; p++) {
@@ -110,7 +128,7 @@ static int weigh(const MotionInput *input, const Motion *motion, const Recipes *
     size_t nodes = (size_t)motion->node_count, rows = 0;
     shares->class_count = recipes->table.count;
     for (size_t n = 0; n < nodes; n++) shares->only[n] = -1;
-    visit_corners(input, recipes, shares, note_class);
+    visit_corners(input, motion, recipes, shares, note_class);
     note_hanging(&motion->constraints, shares);
     for (size_t n = 0; n < nodes; n++) shares->row[n] = shares->only[n] == -2 ? (int32_t)rows++ : -1;
     for (int h = 0; h < motion->constraints.hanging_count; h++) {
@@ -119,7 +137,7 @@ static int weigh(const MotionInput *input, const Motion *motion, const Recipes *
     }
     shares->weights = memory_alloc(rows * shares->class_count + 1, sizeof *shares->weights);
     if (!shares->weights) return -1;
-    visit_corners(input, recipes, shares, add_share);
+    visit_corners(input, motion, recipes, shares, add_share);
     add_hanging(&motion->constraints, shares);
     return 0;
 }
@@ -145,8 +163,9 @@ static int class_nodes(const MotionInput *input, Motion *motion, Recipes *recipe
     bool fits = true;
     for (int n = 0; n < motion->node_count; n++) {
         /* Rigid bodies have a class as a whole; nodes that never move need none. */
-        if (motion->fixed[n] || motion->node_body[n] != MOTION_DEFORMABLE || shares->only[n] == -1) continue;
+        if (motion->fixed[n] || motion->node_body[n] != MOTION_DEFORMABLE) continue;
         int32_t found = shares->only[n];
+        if (found == -1) found = input->node_mass && input->node_mass[n] > 0 ? recipes->everywhere : 0; /* of cables */
         if (found == -2) found = mixed_class(recipes, shares, shares->row[n], &fits);
         if (found < 0) return motion_no_memory(KEYWORD, diagnostics);
         motion->node_class[n] = found;

@@ -204,7 +204,8 @@ static int check_mass(Builder *b, const Link *link, int32_t node, double mobilit
     if (mobility > 0.0 || node >= m->moving_count) return 0;
     if (m->mass[node] > 0.0) return 0;
     diagnostics_add(b->diagnostics, SEVERITY_ERROR, b->definitions->parts.items[link->part].source, "*PART",
-                    "node %d of element %d of part %d has no mass; give the cable a VOL and RO, or hold the node",
+                    "node %d of element %d of part %d has no mass; give the cable a VOL and RO or the node a mass by "
+                    "*ELEMENT_MASS, or hold the node",
                     m->node_id[node], link->id, m->parts[link->part].id);
     return -1;
 }

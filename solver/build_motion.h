@@ -6,6 +6,7 @@
 #include "solver/constraints.h"
 #include "solver/deck_index.h"
 #include "solver/loads.h"
+#include "solver/point_mass.h"
 #include "solver/rigid_body.h"
 #include "solver/sets.h"
 
@@ -27,6 +28,8 @@ typedef struct MotionInput {
     const double *x;          /* initial positions (node count x 3) [L] */
     const double *shell_mass; /* of each shell in deck order [M]; weights of part-boundary nodes */
     const double *node_mass;  /* lumped (node count) [M]; set by build_motion */
+    int point_mass_count;
+    const PointMass *point_masses; /* in node_mass already (point_mass_count) */
     int airbag_count;
     const AirbagNodes *airbags; /* (airbag_count), index = the model's airbag index */
     bool relaxation_phase;      /* the model of the phase before the run: the other curves act (SIDR) */

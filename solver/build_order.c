@@ -170,6 +170,7 @@ static void renumber_lists(Builder *b, const int32_t *new_index)
         for (int c = 0; c < 4; c++) b->records[i].node[c] = new_index[b->records[i].node[c]];
     for (int i = 0; i < m->solid_count; i++)
         for (int a = 0; a < 8; a++) m->solids[i].node[a] = new_index[m->solids[i].node[a]];
+    for (int i = 0; i < m->point_mass_count; i++) m->point_masses[i].node = new_index[m->point_masses[i].node];
     for (int i = 0; i < m->link_count; i++)
         for (int end = 0; end < 2; end++) m->links[i].node[end] = new_index[m->links[i].node[end]];
     for (int i = 0; i < m->airbag_count; i++) {

@@ -76,9 +76,11 @@ typedef struct Builder {
     DeckIndex index;
     int node_count, shell_count, record_count; /* records: shells, then bare segments */
     size_t record_capacity;
-    double *x;         /* (node_count x 3), deck order */
-    double *mass;      /* (node_count), deck order */
-    double *link_mass; /* of beams and cables at the nodes (node_count), deck order; NULL if there are none */
+    double *x;               /* (node_count x 3), deck order */
+    double *mass;            /* (node_count), deck order */
+    double *link_mass;       /* of beams and cables at the nodes (node_count), deck order; NULL if there are none */
+    PointMass *point_masses; /* those of the deck (point_mass_count), deck order of nodes */
+    int point_mass_count;
     ShellRecord *records;
     PartRecord *parts;
     Motion motion;
@@ -129,6 +131,8 @@ int check_reference(Builder *builder);      /* its nodes alone, where earlier st
 int build_links(Builder *builder);          /* beams, springs, cables -> links, masses of nodes; after build_shells */
 int build_link_ends(Builder *builder);      /* which links share an end, and its mass; after build_renumber */
 int build_solids(Builder *builder);         /* solids -> masses of their nodes; after build_shells */
+int build_masses(Builder *builder);         /* of *ELEMENT_MASS; after build_links */
+int build_point_masses(Builder *builder);   /* which of them count, and for which parts; after build_motion */
 int build_curves(Builder *builder);         /* and functions */
 int build_functions(Builder *builder);      /* by build_curves */
 void renumber_functions(Builder *builder, const int32_t *new_index); /* by build_renumber */

@@ -58,6 +58,8 @@ void definitions_free(Definitions *d)
                      d->discretes.items,
                      d->discrete_sections.items,
                      d->interactions.items,
+                     d->masses.items,
+                     d->part_masses.items,
                      d->porosities.items,
                      d->functions.items,
                      d->reference_blocks.items,

@@ -33,6 +33,8 @@ typedef struct Definitions {
     LIST(SectionBeamDefinition) beam_sections;
     LIST(DiscreteDefinition) discretes;
     LIST(SectionDiscreteDefinition) discrete_sections;
+    LIST(MassDefinition) masses;
+    LIST(PartMassDefinition) part_masses;
     LIST(PartDefinition) parts;
     LIST(SectionShellDefinition) sections;
     LIST(MaterialDefinition) materials;

@@ -67,6 +67,22 @@ typedef struct SectionDiscreteDefinition {
     Source source;
 } SectionDiscreteDefinition;
 
+typedef struct MassDefinition { /* *ELEMENT_MASS, and _NODE_SET, whose nodes share it equally */
+    int id, target;             /* target: node or node set */
+    bool is_set;
+    double mass;
+    int part; /* 0 none */
+    Source source;
+} MassDefinition;
+
+typedef struct PartMassDefinition { /* *ELEMENT_MASS_PART, _PART_SET: exactly one of addmass and finmass is positive */
+    int target;                     /* part or part set */
+    bool is_set;
+    double addmass, finmass;
+    int lcid, mwd;
+    Source source;
+} PartMassDefinition;
+
 typedef struct SectionShellDefinition {
     int id, elform, propt, icomp, setyp, qr_irid;
     double shrf, nip, t[4], nloc, marea, idof;

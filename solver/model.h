@@ -29,6 +29,7 @@
 #include "solver/function.h"
 #include "solver/implicit_elements.h"
 #include "solver/loads.h"
+#include "solver/point_mass.h"
 #include "solver/relax_control.h"
 #include "solver/rigid_body.h"
 #include "solver/seam.h"
@@ -100,7 +101,8 @@ typedef struct Part {
     int material_kind; /* MaterialKind */
     int rigid_body;    /* index into Model.rigid_bodies, -1 if deformable */
     int element_count;
-    double mass;         /* [M] */
+    double mass;         /* of its elements [M] */
+    double point_mass;   /* on nodes, that count for it [M] */
     double area;         /* initial [L2] */
     int reference_count; /* elements with a reference geometry: area and mass by it, and by the mesh */
     double reference_area, reference_mass, referred_area, referred_mass;
@@ -179,6 +181,8 @@ typedef struct Model {
 
     int solid_count;
     Solid *solids;
+    int point_mass_count;
+    PointMass *point_masses; /* solver/point_mass.h; mass has them in it */
     int link_count;
     Link *links; /* springs, cables, trusses: elements/link.h */
     int seam_count;

@@ -30,6 +30,13 @@ static void sum_parts(Workspace *w)
             for (int k = 0; k < 3; k++) w->part_momentum[3 * solid->part + k] += solid->share[a] * v[k];
         }
     }
+    for (int i = 0; i < m->point_mass_count; i++) {
+        const PointMass *point = &m->point_masses[i];
+        const double *v = w->velocity + 3 * (ptrdiff_t)point->node;
+        if (point->part < 0) continue;
+        w->part_kinetic[point->part] += 0.5 * point->mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        for (int k = 0; k < 3; k++) w->part_momentum[3 * point->part + k] += point->mass * v[k];
+    }
     for (int p = 0; p < m->part_count; p++) { /* what a card gives goes before what the nodes have */
         int b = m->parts[p].rigid_body;
         if (b < 0 || !m->rigid_bodies[b].given || m->rigid_bodies[b].part_id != m->parts[p].id) continue;
