@@ -1,4 +1,4 @@
-/* Forces and energies of links. Equations (K1) to (K8) of docs/theory.md. */
+/* Forces and energies of links. Equations (K1) to (K8), (K1a) of docs/theory.md. */
 #include "elements/link.h"
 
 #include "solver/elementary.h"
@@ -9,6 +9,10 @@ double link_tension(const Link *link, double length, double peak, double *energy
         double force = strap_force(link->strap, length / link->length - 1.0, peak, energy);
         *energy *= link->length;
         return force;
+    }
+    if (link->curve) {
+        *energy = law_curve_area(link->curve, length - link->length);
+        return law_curve_stress(link->curve, length - link->length);
     }
     if (link->logarithmic) {
         double strain = elementary_log(length / link->length);
@@ -31,8 +35,8 @@ double link_slope(const Link *link, double length)
 {
     double energy;
     if (link->logarithmic) return link->stiffness / length;
-    if (link->strap) {
-        const double step = 1e-6 * link->length;
+    if (link->strap || link->curve) {
+        const double step = 1e-6 * (link->curve ? link->curve->x[link->curve->count - 1] : link->length);
         return (link_tension(link, length + step, 0.0, &energy) - link_tension(link, length - step, 0.0, &energy)) /
                (2.0 * step);
     }

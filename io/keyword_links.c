@@ -1,4 +1,4 @@
-/* *ELEMENT_BEAM, *SECTION_BEAM, *ELEMENT_DISCRETE, *SECTION_DISCRETE, *MAT_SPRING_ELASTIC, *MAT_CABLE_DISCRETE_BEAM. */
+/* *ELEMENT_BEAM, *SECTION_BEAM, *MAT_CABLE_DISCRETE_BEAM. */
 #include "io/keyword_table.h"
 
 /* A beam's card: releases and orientation have no effect on what billow makes of it. */
@@ -132,84 +132,12 @@ static void read_section_beam(KeywordRead *read)
     }
 }
 
-typedef struct DiscreteCard {
-    DiscreteDefinition discrete;
-    int print;
-} DiscreteCard;
-#define AT(member) offsetof(DiscreteCard, member)
-static const FieldSpec discrete_fields[] = {
-    {"EID", 'I', 8, AT(discrete.id), 0.0, false, FIELD_USED, SCALE_ID_ELEMENT},
-    {"PID", 'I', 8, AT(discrete.part), 0.0, false, FIELD_USED, SCALE_ID_PART},
-    {"N1", 'I', 8, AT(discrete.node[0]), 0.0, false, FIELD_USED, SCALE_ID_NODE},
-    {"N2", 'I', 8, AT(discrete.node[1]), 0.0, false, FIELD_USED, SCALE_ID_NODE},
-    {"VID", 'I', 8, AT(discrete.vid), 0.0, false, FIELD_REFUSED, SCALE_ID_DEFINE},
-    {"S", 'F', 16, AT(discrete.s), 1.0, true, FIELD_USED, SCALE_NONE},
-    {"PF", 'I', 8, AT(print), 0.0, false, FIELD_LISTED, SCALE_NONE},
-    {"OFFSET", 'F', 16, AT(discrete.offset), 0.0, false, FIELD_USED, SCALE_LENGTH},
-};
-#undef AT
-static const CardSpec discrete_cards[] = {{"card 1", "one for each element", CARD_FIELDS(discrete_fields)}};
-
-static void read_discrete(KeywordRead *read)
-{
-    while (keyword_more(read) && !read->out_of_memory) {
-        DiscreteCard card = {0};
-        if (keyword_card(read, 0, &card, true, &card.discrete.source)) continue;
-        if (!keyword_check_id(read, card.discrete.id, "EID", card.discrete.source)) continue;
-        if (!keyword_check_id(read, card.discrete.node[0], "N1", card.discrete.source)) continue;
-        if (card.discrete.node[1] == 0) {
-            keyword_error(
-                read, card.discrete.source,
-                "element %d: N2 is 0: springs to the ground are not in billow; give a second node and hold it "
-                "with *BOUNDARY_SPC",
-                card.discrete.id);
-            continue;
-        }
-        if (!keyword_check_id(read, card.discrete.node[1], "N2", card.discrete.source)) continue;
-        DiscreteDefinition *discrete = KEYWORD_APPEND(read, read->definitions->discretes);
-        if (discrete) *discrete = card.discrete;
-    }
-}
-
-#define AT(member) offsetof(SectionDiscreteDefinition, member)
-static const FieldSpec section_discrete_fields[] = {
-    CARD_INT("SECID", id, USED, ID_OTHER), CARD_INT("DRO", dro, REFUSED, NONE),  CARD_REAL("KD", kd, REFUSED, NONE),
-    CARD_REAL("V0", v0, LISTED, VELOCITY), CARD_REAL("CL", cl, REFUSED, LENGTH), CARD_REAL("FD", fd, REFUSED, LENGTH),
-};
-static const FieldSpec section_limit_fields[] = {
-    CARD_REAL("CDL", cdl, REFUSED, LENGTH),
-    CARD_REAL("TDL", tdl, REFUSED, LENGTH),
-};
-#undef AT
-static const CardSpec section_discrete_cards[] = {
-    {"card 1", "one for each section", CARD_FIELDS(section_discrete_fields)},
-    {"card 2", "one for each section", CARD_FIELDS(section_limit_fields)},
-};
-
-static void read_section_discrete(KeywordRead *read)
-{
-    while (keyword_more(read) && !read->out_of_memory) {
-        SectionDiscreteDefinition card = {0};
-        char title[BILLOW_TITLE_LENGTH] = "";
-        keyword_title(read, SECTION_TITLE, title);
-        int status = keyword_card(read, 0, &card, true, &card.source);
-        if (card_left(read->cards) && keyword_card(read, 1, &card, false, NULL)) status = -1;
-        if (status || !keyword_check_id(read, card.id, "SECID", card.source)) continue;
-        SectionDiscreteDefinition *section = KEYWORD_APPEND(read, read->definitions->discrete_sections);
-        if (section) *section = card;
-    }
-}
-
-typedef struct LinkMaterialCard {
+typedef struct CableCard {
     MaterialDefinition material;
     int lcid, iread;
     double tmaxf0, tramp;
-} LinkMaterialCard;
-#define AT(member) offsetof(LinkMaterialCard, member)
-static const FieldSpec spring_fields[] = {
-    CARD_INT("MID", material.id, USED, ID_MATERIAL),
-    CARD_REAL("K", material.k, USED, NONE),
-};
+} CableCard;
+#define AT(member) offsetof(CableCard, member)
 static const FieldSpec cable_fields[] = {
     CARD_INT("MID", material.id, USED, ID_MATERIAL), CARD_REAL("RO", material.ro, USED, DENSITY),
     CARD_REAL("E", material.e, USED, NONE),          CARD_INT("LCID", lcid, REFUSED, ID_FUNCTION),
@@ -217,35 +145,20 @@ static const FieldSpec cable_fields[] = {
     CARD_REAL("TRAMP", tramp, REFUSED, TIME),        CARD_INT("IREAD", iread, REFUSED, NONE),
 };
 #undef AT
-static const CardSpec spring_cards[] = {{"card 1", "", CARD_FIELDS(spring_fields)}};
 static const CardSpec cable_cards[] = {{"card 1", "", CARD_FIELDS(cable_fields)}};
 
-static void read_link_material(KeywordRead *read, MaterialKind kind)
+static void read_cable(KeywordRead *read)
 {
-    LinkMaterialCard card = {.material = {.kind = kind}};
+    CableCard card = {.material = {.kind = MATERIAL_CABLE}};
     MaterialDefinition *material = &card.material;
     keyword_title(read, SECTION_TITLE, material->title);
     if (keyword_card(read, 0, &card, true, &material->source)) return;
     keyword_finish(read);
     if (!keyword_check_id(read, material->id, "MID", material->source)) return;
-    if (kind == MATERIAL_SPRING || material->e < 0.0) { /* force per length: a pressure times a length */
-        double *stiffness = kind == MATERIAL_SPRING ? &material->k : &material->e;
-        *stiffness = keyword_scale(read, keyword_scale(read, *stiffness, SCALE_PRESSURE), SCALE_LENGTH);
-    } else {
-        material->e = keyword_scale(read, material->e, SCALE_PRESSURE);
-    }
+    material->e = keyword_scale(read, material->e, SCALE_PRESSURE);
+    if (material->e < 0.0) material->e = keyword_scale(read, material->e, SCALE_LENGTH); /* force per length */
     MaterialDefinition *record = KEYWORD_APPEND(read, read->definitions->materials);
     if (record) *record = *material;
-}
-
-static void read_spring(KeywordRead *read)
-{
-    read_link_material(read, MATERIAL_SPRING);
-}
-
-static void read_cable(KeywordRead *read)
-{
-    read_link_material(read, MATERIAL_CABLE);
 }
 
 static const KeywordSpec specs[] = {
@@ -263,24 +176,6 @@ static const KeywordSpec specs[] = {
      .remark =
          "ELFORM 3 with *MAT_ELASTIC, 6 with *MAT_CABLE_DISCRETE_BEAM; 1, 2, 9, 11, 12, 13 with *MAT_RIGID, whose "
          "mass they give."},
-    {.name = "*ELEMENT_DISCRETE",
-     .cards = discrete_cards,
-     .card_count = 1,
-     .read = read_discrete,
-     .remark = "Springs along the line from N1 to N2. OFFSET > 0 is an elongation at the start."},
-    {.name = "*SECTION_DISCRETE",
-     .options = {"TITLE"},
-     .cards = section_discrete_cards,
-     .card_count = 2,
-     .read = read_section_discrete,
-     .remark = "Translational springs without limits."},
-    {.name = "*MAT_SPRING_ELASTIC",
-     .aliases = {"*MAT_S01"},
-     .options = {"TITLE"},
-     .cards = spring_cards,
-     .card_count = 1,
-     .read = read_spring,
-     .remark = "Force K times the elongation, pull and push."},
     {.name = "*MAT_CABLE_DISCRETE_BEAM",
      .aliases = {"*MAT_071", "*MAT_71"},
      .options = {"TITLE"},
@@ -292,4 +187,4 @@ static const KeywordSpec specs[] = {
          "OFFSET is slack."},
 };
 
-const KeywordFamily keyword_family_links = {"Beams, springs and cables", specs, (int)(sizeof specs / sizeof *specs)};
+const KeywordFamily keyword_family_links = {"Beams and cables", specs, (int)(sizeof specs / sizeof *specs)};

@@ -28,6 +28,7 @@ static const KeywordFamily *const families[] = {
     &keyword_family_rigidwall,
     &keyword_family_solids,
     &keyword_family_links,
+    &keyword_family_springs,
     &keyword_family_masses,
     &keyword_family_seatbelt,
     &keyword_family_seams,

@@ -63,7 +63,7 @@ extern const KeywordFamily keyword_family_nodes, keyword_family_parts, keyword_f
     keyword_family_airbag, keyword_family_deck, keyword_family_ignored, keyword_family_refused,
     keyword_family_rigidwall, keyword_family_solids, keyword_family_rigid_bodies, keyword_family_links,
     keyword_family_seatbelt, keyword_family_reference_geometry, keyword_family_seams, keyword_family_erosion,
-    keyword_family_contact, keyword_family_contact_entity, keyword_family_masses;
+    keyword_family_contact, keyword_family_contact_entity, keyword_family_masses, keyword_family_springs;
 
 /* Cards of a rigid body's inertia, in *PART_INERTIA and *CONSTRAINED_NODAL_RIGID_BODY_INERTIA, for records of
  * InertiaCard; the reading of them all returns 0, or -1 after an error. */

@@ -79,6 +79,8 @@ static const char *material_name(int kind)
         return "rigid";
     case MATERIAL_SPRING:
         return "spring";
+    case MATERIAL_DAMPER:
+        return "damper";
     case MATERIAL_CABLE:
         return "cable";
     case MATERIAL_ORTHOTROPIC:
@@ -237,6 +239,7 @@ void report_write_conditions(const Model *model, FILE *stream)
         {"classes of body force and damping", model->loads.class_count > 1 ? model->loads.class_count - 1 : 0},
         {"moving rigid bodies", model->rigid_body_count},
         {"springs, cables and trusses", model->link_count},
+        {"dampers", model->damper_count},
         {"masses on nodes", model->point_mass_count},
         {"pairs of nodes that a seam joins", model->seam_count},
         {"places at which nodes are tied", model->ties.count},

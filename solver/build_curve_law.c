@@ -34,13 +34,13 @@ static const char *fault_text(CurveFault fault)
 {
     switch (fault) {
     case CURVE_TOO_SHORT:
-        return "a curve of stress over strain needs two points at least";
+        return "a curve of stress over strain, or of a force, needs two points at least";
     case CURVE_FALLS:
-        return "the stress falls at this point; with growing strain it must grow or stay";
+        return "the stress falls at this point; with growing strain it must grow or stay, and so must a force";
     case CURVE_OFF_ORIGIN:
         return "the curve does not go through the origin; start it with the point 0, 0";
     case CURVE_FLAT:
-        return "the curve has no stress at any positive strain; give it some stiffness";
+        return "the curve has no stress or force at any positive abscissa; give it some stiffness";
     case CURVE_NOT_ODD:
         return "shear of both senses must meet the same stress: leave out the negative strains or mirror the others";
     case CURVE_FINE:
@@ -60,7 +60,7 @@ static const CurveDefinition *find_curve(const Builder *b, int id, const Curve *
 }
 
 /* One curve of the material, checked and made; -1 after an error. */
-static int take_curve(CurveBuild *c, const char *name, int id, bool shear, bool tension, LawCurve *to)
+static int take_curve(CurveBuild *c, const char *name, int id, bool shear, bool tension, double scale, LawCurve *to)
 {
     const Curve *curve;
     const CurveDefinition *definition = find_curve(c->builder, id, &curve);
@@ -79,7 +79,7 @@ static int take_curve(CurveBuild *c, const char *name, int id, bool shear, bool 
     }
     double *storage = builder_alloc(c->builder, law_curve_size(curve->count), sizeof *storage);
     if (!storage) return c->status = -1;
-    law_curve_make(to, curve->count, curve->x, curve->y, 1.0, tension, storage);
+    law_curve_make(to, curve->count, curve->x, curve->y, scale, tension, storage);
     return 0;
 }
 
@@ -87,7 +87,8 @@ static int take_curve(CurveBuild *c, const char *name, int id, bool shear, bool 
 static void take_unloading(CurveBuild *c, int direction, const DirectionCard *card)
 {
     CurveLaw *law = c->law;
-    if (take_curve(c, card->unload_name, card->unload, direction == CURVE_SHEAR, true, &law->unload[direction])) return;
+    if (take_curve(c, card->unload_name, card->unload, direction == CURVE_SHEAR, true, 1.0, &law->unload[direction]))
+        return;
     double factor = law_curve_meet(law, direction);
     if (law_curve_crossing(law, direction) >= 0.0)
         report(
@@ -105,7 +106,7 @@ static void take_direction(CurveBuild *c, int direction, const DirectionCard *ca
     CurveLaw *law = c->law;
     bool shear = direction == CURVE_SHEAR, tension = shear || c->tension;
     if (card->load) {
-        if (take_curve(c, card->load_name, card->load, shear, tension, &law->load[direction])) return;
+        if (take_curve(c, card->load_name, card->load, shear, tension, 1.0, &law->load[direction])) return;
     } else {
         double *storage = builder_alloc(c->builder, law_curve_size(1), sizeof *storage);
         if (!(card->modulus > 0.0))
@@ -156,7 +157,20 @@ static int finish_law(CurveBuild *c, double hysteresis, PlaneModuli liner, doubl
 int material_curve(Builder *b, const MaterialDefinition *m, const char *field, int id, LawCurve *curve)
 {
     CurveBuild c = {.builder = b, .material = m, .keyword = m->keyword};
-    return take_curve(&c, field, id, false, true, curve);
+    return take_curve(&c, field, id, false, true, 1.0, curve);
+}
+
+int material_force_curve(Builder *b, const MaterialDefinition *m, const char *field, int id, double scale,
+                         LawCurve *curve)
+{
+    CurveBuild c = {.builder = b, .material = m, .keyword = m->keyword};
+    const Curve *points = NULL;
+    if (take_curve(&c, field, id, false, false, scale, curve)) return -1;
+    const CurveDefinition *definition = find_curve(b, id, &points);
+    if (!points || points->x[0] < 0.0) return 0;
+    report(&c, SEVERITY_ERROR, definition->source, "*DEFINE_CURVE", field, id,
+           "the curve needs points at negative abscissae too, before those at positive ones");
+    return -1;
 }
 
 /* From a curve over E12 to one over 2 E12. */

@@ -1,4 +1,4 @@
-/* Beams, cables, trusses and springs of the deck -> links, and the masses they bring. */
+/* Beams, cables, trusses, springs and dampers of the deck -> links and dampers, and the masses they bring. */
 #include <math.h>
 
 #include "solver/builder.h"
@@ -15,8 +15,10 @@ typedef struct LinkCard {
 
 static int find_nodes(Builder *b, const LinkCard *card, int32_t node[2])
 {
+    const int ends = card->spring && !card->spring->is_belt && card->node[1] == 0 ? 1 : 2;
     int status = 0;
-    for (int end = 0; end < 2; end++) {
+    node[1] = -1; /* the ground */
+    for (int end = 0; end < ends; end++) {
         node[end] = id_map_find(&b->index.nodes, card->node[end]);
         if (node[end] >= 0) continue;
         diagnostics_add(
@@ -94,6 +96,51 @@ static int belt_law(Builder *b, const LinkCard *card, const MaterialDefinition *
     return 0;
 }
 
+/* A spring's stiffness or curve, and the length at which it is at rest (K1, K1a). */
+static int spring_law(Builder *b, const LinkCard *card, const MaterialDefinition *material, double length, Link *link)
+{
+    const double scale = card->spring->s;
+    link->length = length - card->spring->offset;
+    if (link->node[1] < 0 && card->spring->offset != 0.0) {
+        diagnostics_add(b->diagnostics, SEVERITY_ERROR, card->source, card->keyword,
+                        "element %d: OFFSET = %g with N2 = 0: a spring to the ground starts without a length, so that "
+                        "the offset has no direction; give it a second node that is held",
+                        card->id, card->spring->offset);
+        return -1;
+    }
+    if (material->lcd == 0) {
+        link->stiffness = material->k * scale;
+        if (!(link->stiffness > 0.0)) return refuse_law(b, card, "K S", link->stiffness, "a spring needs a stiffness");
+        return 0;
+    }
+    if (!(scale > 0.0)) return refuse_law(b, card, "S", scale, "it is a factor on the forces");
+    LawCurve *curve = builder_alloc(b, 1, sizeof *curve);
+    if (!curve || material_force_curve(b, material, "LCD", material->lcd, scale, curve)) return -1;
+    link->curve = curve;
+    link->stiffness = law_curve_steepest(curve);
+    return 0;
+}
+
+/* A damper's coefficient or curve (K9). */
+static int damper_law(Builder *b, const LinkCard *card, const MaterialDefinition *material, Damper *damper)
+{
+    const double scale = card->spring->s;
+    if (card->spring->offset != 0.0)
+        diagnostics_add(b->diagnostics, SEVERITY_WARNING, card->source, card->keyword,
+                        "element %d: OFFSET = %g has no effect on a damper", card->id, card->spring->offset);
+    damper->coefficient = material->dc * scale;
+    if (material->lcdr == 0)
+        return damper->coefficient > 0.0
+                   ? 0
+                   : refuse_law(b, card, "DC S", damper->coefficient, "a damper needs a coefficient");
+    if (!(scale > 0.0)) return refuse_law(b, card, "S", scale, "it is a factor on the forces");
+    LawCurve *curve = builder_alloc(b, 1, sizeof *curve);
+    if (!curve || material_force_curve(b, material, "LCDR", material->lcdr, scale, curve)) return -1;
+    damper->curve = curve;
+    damper->coefficient = law_curve_steepest(curve);
+    return 0;
+}
+
 /* One element: its mass goes to the nodes; a beam of a rigid part is no link. */
 static int build_link(Builder *b, const LinkCard *card, SectionKind kind)
 {
@@ -114,22 +161,27 @@ static int build_link(Builder *b, const LinkCard *card, SectionKind kind)
     }
     if (status || record->material < 0) return -1;
     const MaterialDefinition *material = &d->materials.items[record->material];
+    const double *near = b->x + 3 * (ptrdiff_t)node[0], *far = node[1] < 0 ? near : b->x + 3 * (ptrdiff_t)node[1];
     double span[3];
-    vector3_subtract(b->x + 3 * (ptrdiff_t)node[1], b->x + 3 * (ptrdiff_t)node[0], span);
+    vector3_subtract(far, near, span);
     double length = vector3_norm(span), mass = 0.0;
-    Link link = {.id = card->id, .part = part, .node = {node[0], node[1]}};
+    Link link = {.id = card->id, .part = part, .node = {node[0], node[1]}, .ground = {far[0], far[1], far[2]}};
     if (card->spring && card->spring->is_belt != (material->kind == MATERIAL_BELT)) {
         diagnostics_add(b->diagnostics, SEVERITY_ERROR, card->source, card->keyword,
-                        "element %d of part %d: straps have *MAT_SEATBELT, springs *MAT_SPRING_ELASTIC; correct MID",
+                        "element %d of part %d: straps have *MAT_SEATBELT, springs and dampers *MAT_SPRING_... and "
+                        "*MAT_DAMPER_...; correct MID",
                         card->id, card->part);
         return -1;
     }
     if (card->spring && card->spring->is_belt) {
         if (belt_law(b, card, material, length, &link, &mass)) return -1;
+    } else if (card->spring && material->kind == MATERIAL_DAMPER) {
+        Damper damper = {.id = card->id, .part = part, .node = {node[0], node[1]}, .ground = {far[0], far[1], far[2]}};
+        if (damper_law(b, card, material, &damper)) return -1;
+        b->model->dampers[b->model->damper_count++] = damper;
+        return 0;
     } else if (card->spring) {
-        link.stiffness = material->k * card->spring->s;
-        link.length = length - card->spring->offset;
-        if (!(link.stiffness > 0.0)) return refuse_law(b, card, "K S", link.stiffness, "a spring needs a stiffness");
+        if (spring_law(b, card, material, length, &link)) return -1;
     } else {
         const SectionBeamDefinition *section = &d->beam_sections.items[record->section];
         mass = beam_mass(section, material, length);
@@ -139,7 +191,7 @@ static int build_link(Builder *b, const LinkCard *card, SectionKind kind)
                             card->id, card->part);
         if (material->kind != MATERIAL_RIGID && beam_law(b, card, section, material, length, &link)) return -1;
     }
-    for (int end = 0; end < 2; end++) b->link_mass[node[end]] += 0.5 * mass;
+    for (int end = 0; mass > 0.0 && end < 2; end++) b->link_mass[node[end]] += 0.5 * mass;
     b->model->parts[part].mass += mass;
     if (material->kind != MATERIAL_RIGID) b->model->links[b->model->link_count++] = link;
     return 0;
@@ -153,8 +205,9 @@ int build_links(Builder *b)
     if (count == 0) return 0;
     if (!b->x) return -1; /* no nodes: told by build_shells */
     b->model->links = builder_alloc(b, count, sizeof *b->model->links);
+    b->model->dampers = builder_alloc(b, d->discretes.count + 1, sizeof *b->model->dampers);
     b->link_mass = memory_alloc((size_t)b->node_count + 1, sizeof *b->link_mass);
-    if (!b->model->links || !b->link_mass) return -1;
+    if (!b->model->links || !b->model->dampers || !b->link_mass) return -1;
     for (size_t i = 0; i < d->beams.count; i++) {
         const BeamDefinition *beam = &d->beams.items[i];
         LinkCard card = {beam->id, beam->part, {beam->node[0], beam->node[1]}, NULL, "*ELEMENT_BEAM", beam->source};
@@ -170,69 +223,5 @@ int build_links(Builder *b)
                          spring->source};
         if (build_link(b, &card, SECTION_DISCRETE)) status = -1;
     }
-    return status;
-}
-
-/* 1/m that a force at this node of a body meets at most: 1/M + r^2/I. */
-static double body_mobility(const RigidBody *body, int32_t node)
-{
-    double least = 0.0, arm = 0.0;
-    for (int i = 0; i < 3; i++)
-        if (body->inertia[i] > 0.0 && (least == 0.0 || body->inertia[i] < least)) least = body->inertia[i];
-    for (int k = 0; k < body->node_count; k++)
-        if (body->node[k] == node) arm = vector3_norm(body->offset + 3 * (size_t)k);
-    return 1.0 / body->mass + (least > 0.0 ? arm * arm / least : 0.0);
-}
-
-/* A node's 1/m for forces: its own, that of its body, or for a hanging node that of its edge's ends. */
-static double node_mobility(const Builder *b, const int32_t *body_of, int32_t node)
-{
-    const Constraints *constraints = &b->motion.constraints;
-    if (body_of[node]) return body_mobility(&b->motion.rigid_bodies[body_of[node] - 1], node);
-    double mobility = b->model->inverse_mass[node];
-    for (int h = 0; h < constraints->hanging_count; h++)
-        if (constraints->hanging[h].node == node)
-            for (int end = 0; end < 2; end++)
-                mobility += 0.5 * node_mobility(b, body_of, constraints->hanging[h].end[end]);
-    return mobility;
-}
-
-/* Where the node is fixed no mass is needed. */
-static int check_mass(Builder *b, const Link *link, int32_t node, double mobility)
-{
-    const Model *m = b->model;
-    if (mobility > 0.0 || node >= m->moving_count) return 0;
-    if (m->mass[node] > 0.0) return 0;
-    diagnostics_add(b->diagnostics, SEVERITY_ERROR, b->definitions->parts.items[link->part].source, "*PART",
-                    "node %d of element %d of part %d has no mass; give the cable a VOL and RO or the node a mass by "
-                    "*ELEMENT_MASS, or hold the node",
-                    m->node_id[node], link->id, m->parts[link->part].id);
-    return -1;
-}
-
-/* Mobility of each link's ends, times the number of links that hold the same node or body (K5). */
-int build_link_ends(Builder *b)
-{
-    Model *m = b->model;
-    if (m->link_count == 0) return 0;
-    int32_t *share = memory_alloc((size_t)m->node_count + (size_t)b->motion.rigid_body_count + 1, sizeof *share);
-    int32_t *body_of = memory_alloc((size_t)m->node_count + 1, sizeof *body_of);
-    int status = share && body_of ? 0 : -1;
-    for (int k = 0; !status && k < b->motion.rigid_body_count; k++)
-        for (int n = 0; n < b->motion.rigid_bodies[k].node_count; n++)
-            body_of[b->motion.rigid_bodies[k].node[n]] = k + 1;
-    for (int i = 0; share && body_of && i < 2 * m->link_count; i++) {
-        int32_t node = m->links[i / 2].node[i % 2], body = body_of[node];
-        share[body ? m->node_count + body - 1 : node]++;
-    }
-    for (int i = 0; share && body_of && i < 2 * m->link_count; i++) {
-        Link *link = &m->links[i / 2];
-        int32_t node = link->node[i % 2], body = body_of[node];
-        double mobility = node_mobility(b, body_of, node);
-        link->inverse[i % 2] = share[body ? m->node_count + body - 1 : node] * mobility;
-        if (check_mass(b, link, node, mobility)) status = -1;
-    }
-    memory_free(share);
-    memory_free(body_of);
     return status;
 }

@@ -94,8 +94,7 @@ enum { CLASS_FREE, CLASS_SPECIAL, CLASS_FIXED };
 static void classify_nodes(Builder *b, const Adjacency *a, unsigned char *class)
 {
     motion_mark_special(&b->motion, class);
-    for (int i = 0; i < b->model->link_count; i++)
-        for (int end = 0; end < 2; end++) class[b->model->links[i].node[end]] = CLASS_SPECIAL;
+    mark_link_nodes(b, class);
     mark_jet_nodes(b, class);
     mark_seam_nodes(b, class);
     mark_tie_nodes(b, class);
@@ -171,8 +170,7 @@ static void renumber_lists(Builder *b, const int32_t *new_index)
     for (int i = 0; i < m->solid_count; i++)
         for (int a = 0; a < 8; a++) m->solids[i].node[a] = new_index[m->solids[i].node[a]];
     for (int i = 0; i < m->point_mass_count; i++) m->point_masses[i].node = new_index[m->point_masses[i].node];
-    for (int i = 0; i < m->link_count; i++)
-        for (int end = 0; end < 2; end++) m->links[i].node[end] = new_index[m->links[i].node[end]];
+    renumber_links(b, new_index);
     for (int i = 0; i < m->airbag_count; i++) {
         for (int k = 0; k < m->airbags[i].node_count; k++) m->airbags[i].node[k] = new_index[m->airbags[i].node[k]];
         for (int k = 0; k < b->closures[i].cap_count; k++) {

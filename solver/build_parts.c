@@ -242,7 +242,8 @@ static int part_law(Builder *b, const PartDefinition *definition, const Material
     part->quad = b->options->one_point_quads ? ELEMENT_QUAD_ONE : ELEMENT_QUAD_FULL;
     if (section->icomp == 1 && section->beta_count > 0) part->angle = section->beta[0] * degree;
     if (!(m->ro > 0.0) && !(section->marea > 0.0) && m->kind != MATERIAL_NULL && m->kind != MATERIAL_RIGID &&
-        m->kind != MATERIAL_SPRING && m->kind != MATERIAL_CABLE && m->kind != MATERIAL_BELT) {
+        m->kind != MATERIAL_SPRING && m->kind != MATERIAL_DAMPER && m->kind != MATERIAL_CABLE &&
+        m->kind != MATERIAL_BELT) {
         diagnostics_add(b->diagnostics, SEVERITY_ERROR, m->source, NULL,
                         "material %d has density RO = %g; it must be positive", m->id, m->ro);
         return -1;
@@ -278,11 +279,12 @@ static int part_law(Builder *b, const PartDefinition *definition, const Material
         part->law = LAW_SURFACE;
         break;
     case MATERIAL_SPRING:
+    case MATERIAL_DAMPER:
     case MATERIAL_CABLE:
     case MATERIAL_BELT:
         diagnostics_add(
             b->diagnostics, SEVERITY_ERROR, definition->source, "*PART",
-            "part %d is of shells, but its material %d is for springs, cables or straps; correct MID or SECID",
+            "part %d is of shells, but its material %d is for springs, dampers, cables or straps; correct MID or SECID",
             definition->id, definition->material);
         return -1;
     }

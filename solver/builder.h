@@ -119,6 +119,10 @@ int rubber_law(Builder *builder, const MaterialDefinition *material, bool first_
  * after an error. */
 int material_curve(Builder *builder, const MaterialDefinition *material, const char *field, int id, LawCurve *curve);
 
+/* The same for pull and push, or for both senses of a rate: force times scale over what the curve's abscissae are. */
+int material_force_curve(Builder *builder, const MaterialDefinition *material, const char *field, int id, double scale,
+                         LawCurve *curve);
+
 /* Area of a beam's cross-section, 0 if it is not known. */
 double beam_area(const SectionBeamDefinition *section);
 
@@ -129,12 +133,14 @@ int build_reference(Builder *builder);      /* reference geometries; masses by t
 int build_reference_mass(Builder *builder); /* their classes, areas and masses; by build_reference */
 int check_reference(Builder *builder);      /* its nodes alone, where earlier stages have failed */
 int build_links(Builder *builder);          /* beams, springs, cables -> links, masses of nodes; after build_shells */
-int build_link_ends(Builder *builder);      /* which links share an end, and its mass; after build_renumber */
-int build_solids(Builder *builder);         /* solids -> masses of their nodes; after build_shells */
-int build_masses(Builder *builder);         /* of *ELEMENT_MASS; after build_links */
-int build_point_masses(Builder *builder);   /* which of them count, and for which parts; after build_motion */
-int build_curves(Builder *builder);         /* and functions */
-int build_functions(Builder *builder);      /* by build_curves */
+void mark_link_nodes(const Builder *builder, unsigned char *special); /* by build_renumber */
+void renumber_links(Builder *builder, const int32_t *new_index);      /* likewise */
+int build_link_ends(Builder *builder);    /* which links share an end, and its mass; after build_renumber */
+int build_solids(Builder *builder);       /* solids -> masses of their nodes; after build_shells */
+int build_masses(Builder *builder);       /* of *ELEMENT_MASS; after build_links */
+int build_point_masses(Builder *builder); /* which of them count, and for which parts; after build_motion */
+int build_curves(Builder *builder);       /* and functions */
+int build_functions(Builder *builder);    /* by build_curves */
 void renumber_functions(Builder *builder, const int32_t *new_index); /* by build_renumber */
 int build_spline(Builder *builder, int curve); /* index of a curve's points as a cubic spline; -1 without memory */
 int build_surfaces(Builder *builder);          /* airbags' surfaces: orientation and caps */

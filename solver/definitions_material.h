@@ -11,7 +11,8 @@ typedef enum MaterialKind {
     MATERIAL_ELASTIC,
     MATERIAL_NULL,
     MATERIAL_RIGID,
-    MATERIAL_SPRING,      /* *MAT_SPRING_ELASTIC: k */
+    MATERIAL_SPRING,      /* *MAT_SPRING_ELASTIC: k, _NONLINEAR_ELASTIC: lcd */
+    MATERIAL_DAMPER,      /* *MAT_DAMPER_VISCOUS: dc, _NONLINEAR_VISCOUS: lcdr */
     MATERIAL_CABLE,       /* *MAT_CABLE_DISCRETE_BEAM: ro, e, f0 */
     MATERIAL_ORTHOTROPIC, /* *MAT_ORTHOTROPIC_ELASTIC: the card of a fabric of FORM 2 */
     MATERIAL_RUBBER,      /* *MAT_MOONEY-RIVLIN_RUBBER, *MAT_OGDEN_RUBBER */
@@ -58,6 +59,8 @@ typedef struct MaterialDefinition {
     double e, pr, da, db, k;     /* MAT_ELASTIC; MAT_NULL's YM and PR are in e and pr */
     double pc, mu, terod, cerod; /* MAT_NULL */
     double f0;                   /* MAT_CABLE_DISCRETE_BEAM */
+    double dc;                   /* MAT_DAMPER_VISCOUS */
+    int lcd, lcdr;               /* MAT_SPRING_NONLINEAR_ELASTIC, MAT_DAMPER_NONLINEAR_VISCOUS */
     int llcid, ulcid;            /* MAT_SEATBELT; its MPUL is in ro */
     const char *keyword;         /* as messages call it, a constant of the reader; NULL: *MAT_FABRIC and others' own */
     FabricCard fabric;

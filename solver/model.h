@@ -19,6 +19,7 @@
 #include "contact/contact.h"
 #include "contact/contact_entity.h"
 #include "contact/rigid_wall.h"
+#include "elements/damper.h"
 #include "elements/erosion.h"
 #include "elements/law.h"
 #include "elements/link.h"
@@ -185,6 +186,8 @@ typedef struct Model {
     PointMass *point_masses; /* solver/point_mass.h; mass has them in it */
     int link_count;
     Link *links; /* springs, cables, trusses: elements/link.h */
+    int damper_count;
+    Damper *dampers; /* elements/damper.h */
     int seam_count;
     Seam *seams;   /* solver/seam.h */
     TieTable ties; /* solver/tie.h */

@@ -32,9 +32,12 @@ int part_material_check(Builder *b, const PartDefinition *definition, const Part
     bool rigid = material->kind == MATERIAL_RIGID;
     if (record->kind == SECTION_SOLID) return rigid ? 0 : refuse(b, definition, "solids", "*MAT_RIGID");
     if (record->kind == SECTION_DISCRETE)
-        return material->kind == MATERIAL_SPRING || material->kind == MATERIAL_BELT
+        return material->kind == MATERIAL_SPRING || material->kind == MATERIAL_DAMPER || material->kind == MATERIAL_BELT
                    ? 0
-                   : refuse(b, definition, "springs", "*MAT_SPRING_ELASTIC and *MAT_SEATBELT");
+                   : refuse(
+                         b, definition, "springs",
+                         "*MAT_SPRING_ELASTIC and _NONLINEAR_ELASTIC, *MAT_DAMPER_VISCOUS and _NONLINEAR_VISCOUS and "
+                         "*MAT_SEATBELT");
     const SectionBeamDefinition *section = &b->definitions->beam_sections.items[record->section];
     if (rigid) return 0;
     if (section->elform == 6)

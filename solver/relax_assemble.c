@@ -86,27 +86,30 @@ static void add_links(RelaxSystem *s, const double *x, bool stiffness)
 {
     for (int i = 0; i < s->model->link_count; i++) {
         const Link *link = &s->model->links[i];
+        const int ends = link->node[1] < 0 ? 1 : 2;
+        const double *far = ends == 1 ? link->ground : x + 3 * (ptrdiff_t)link->node[1];
         double along[3], energy;
-        vector3_subtract(x + 3 * (ptrdiff_t)link->node[1], x + 3 * (ptrdiff_t)link->node[0], along);
+        vector3_subtract(far, x + 3 * (ptrdiff_t)link->node[0], along);
         double length = sqrt(vector3_dot(along, along));
-        if (!(length > 0.0)) continue;
+        if (!(length > 0.0) && link->length != 0.0) continue;
         double tension = link_tension(link, length, 0.0, &energy);
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; length > 0.0 && k < 3; k++) {
             along[k] /= length;
             s->force[3 * (ptrdiff_t)link->node[0] + k] += tension * along[k];
-            s->force[3 * (ptrdiff_t)link->node[1] + k] -= tension * along[k];
+            if (ends == 2) s->force[3 * (ptrdiff_t)link->node[1] + k] -= tension * along[k];
         }
         if (!stiffness) continue;
         double slope = link_slope(link, length), across = tension > 0.0 ? tension / length : 0.0, k[36] = {0};
+        if (!(length > 0.0)) across = slope; /* a spring without length pulls back from all sides alike */
         for (int a = 0; a < 2; a++)
             for (int b = 0; b < 2; b++)
                 for (int r = 0; r < 3; r++)
                     for (int c = 0; c < 3; c++)
                         k[(3 * a + r) * 6 + 3 * b + c] =
                             (a == b ? 1.0 : -1.0) * ((slope - across) * along[r] * along[c] + (r == c ? across : 0.0));
-        add_stiffness(s, 2, link->node, k, 6);
+        add_stiffness(s, ends, link->node, k, 6);
         double unit = link->logarithmic ? link->stiffness / link->length : link->stiffness;
-        for (int a = 0; a < 2; a++) add_scale(s, link->node[a], unit);
+        for (int a = 0; a < ends; a++) add_scale(s, link->node[a], unit);
     }
 }
 

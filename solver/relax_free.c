@@ -38,7 +38,8 @@ static void join_all(const Model *m, int32_t *parent)
                 join(parent, node[0], node[a * BILLOW_LANES]);
             }
     }
-    for (int i = 0; i < m->link_count; i++) join(parent, m->links[i].node[0], m->links[i].node[1]);
+    for (int i = 0; i < m->link_count; i++)
+        if (m->links[i].node[1] >= 0) join(parent, m->links[i].node[0], m->links[i].node[1]);
     for (int i = 0; i < m->constraints.hanging_count; i++) {
         const HangingNode *hanging = &m->constraints.hanging[i];
         join(parent, hanging->node, hanging->end[0]);
@@ -87,6 +88,8 @@ static int find_drifting(const RelaxSystem *s, int32_t *parent, double *sum, uns
             }
         for (int k = 0; k < 3; k++) sum[3 * root + k] += s->loads[3 * n + k];
     }
+    for (int i = 0; i < m->link_count; i++) /* springs to the ground */
+        if (m->links[i].node[1] < 0) held[find_root(parent, m->links[i].node[0])] = 7;
     for (int n = 0; n < m->node_count; n++) {
         if (find_root(parent, n) != n) continue;
         for (int k = 0; k < 3; k++) {

@@ -19,7 +19,9 @@ static void mark_elements(const Model *m, unsigned char *used)
         if (group->law == LAW_SURFACE && group->part < 0) continue;
         for (int i = 0; i < group->block_count * group->corner_count * BILLOW_LANES; i++) used[group->node[i]] = 1;
     }
-    for (int i = 0; i < m->link_count; i++) used[m->links[i].node[0]] = used[m->links[i].node[1]] = 1;
+    for (int i = 0; i < m->link_count; i++)
+        for (int end = 0; end < 2; end++)
+            if (m->links[i].node[end] >= 0) used[m->links[i].node[end]] = 1;
 }
 
 /* Nodes of rigid bodies are held where they are. */
@@ -133,7 +135,7 @@ static void for_pairs(RelaxSystem *s, PairWork *work)
                 for_pairs_of(s, group->node + (ptrdiff_t)b * group->corner_count * BILLOW_LANES + l, BILLOW_LANES,
                              group->corner_count, work);
     }
-    for (int i = 0; i < m->link_count; i++) for_pairs_of(s, m->links[i].node, 1, 2, work);
+    for (int i = 0; i < m->link_count; i++) for_pairs_of(s, m->links[i].node, 1, m->links[i].node[1] < 0 ? 1 : 2, work);
 }
 
 static void count_pair(RelaxSystem *s, int column, int row)

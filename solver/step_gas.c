@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "solver/step_accounts.h"
+#include "solver/step_dampers.h"
 #include "solver/step_erosion.h"
 #include "solver/step_links.h"
 #include "solver/workspace.h"
@@ -143,6 +144,7 @@ static int choose_step(Workspace *w, double rate)
         return -1;
     }
     if (m->link_count > 0) rate += links_rate(m, w->state->x);
+    if (m->damper_count > 0) rate = dampers_rate(m, rate);
     w->element_step = rate > 0.0 ? 2.0 / sqrt(rate) : 0.0;
     double step = rate > 0.0 ? m->step_scale * 2.0 / sqrt(rate) : 0.0;
     if (!(m->deformable_count > 0 && step > 0.0)) {

@@ -6,7 +6,8 @@
 /* From the first node to the second: unit vector and length. */
 static double find_line(const Link *link, const double *x, double line[3])
 {
-    vector3_subtract(x + 3 * (ptrdiff_t)link->node[1], x + 3 * (ptrdiff_t)link->node[0], line);
+    const double *far = link->node[1] < 0 ? link->ground : x + 3 * (ptrdiff_t)link->node[1];
+    vector3_subtract(far, x + 3 * (ptrdiff_t)link->node[0], line);
     return vector3_normalize(line);
 }
 
@@ -20,7 +21,7 @@ void links_act(const Model *m, State *state, double *f)
         state->part_energy[link->part] += energy - state->link_energy[i];
         state->link_energy[i] = energy;
         for (int end = 0; f && end < 2; end++) {
-            if (link->node[end] >= m->moving_count) continue;
+            if (link->node[end] < 0 || link->node[end] >= m->moving_count) continue;
             for (int k = 0; k < 3; k++)
                 f[3 * (ptrdiff_t)link->node[end] + k] += (end == 0 ? tension : -tension) * line[k];
         }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "contact/entity_loop.h"
+#include "solver/step_dampers.h"
 #include "solver/step_links.h"
 #include "solver/step_seams.h"
 #include "solver/step_ties.h"
@@ -177,6 +178,7 @@ void step_special(Workspace *w)
     gather_special(w, t, false);
     push_rims(w);
     links_act(m, state, w->force);
+    dampers_act(m, state->x, state->v, w->force);
     if (w->jets) step_jets_react(w, t);
     loads_apply_points(&m->loads, m->curves, plan->time, state->x, w->force);
     if (m->walls_push_bodies) step_wall_bodies_push(w);
@@ -193,6 +195,7 @@ void step_special(Workspace *w)
     constraints_place_hanging(&m->constraints, state->v);
     t->reaction += loads_points_work(&m->loads, m->curves, plan->time, state->x,
                                      plan->dt_before > 0.0 ? w->before : state->v, state->v, plan->dt_mean);
+    t->damping += dampers_work(m, state->x, w->before, state->v, plan->dt_mean);
     gather_special(w, t, true);
     if (w->jets) step_jets_count_reaction(w, t);
     count_energy(w, t);
