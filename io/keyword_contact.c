@@ -92,26 +92,31 @@ static const FieldSpec mpp1_fields[] = {
     CARD_GAP,
     CONTACT_UNUSED_INT("CPARM8", 5, 0),
 };
+static const FieldSpec card4_fields[] = {
+    CONTACT_UNUSED_INT("ISYM", 0, 0),
+    CONTACT_UNUSED_INT("EROSOP", 1, 0),
+    CONTACT_UNUSED_INT("IADJ", 2, 0),
+};
 static const FieldSpec id_fields[] = {CARD_INT("CID", contact.id, USED, NONE),
                                       CARD_TEXT("HEADING", contact.title, 70, USED)};
 #undef AT
 
 enum { CONTACT_ID, CONTACT_TITLE, CONTACT_MPP };
-enum { CARD_1, CARD_2, CARD_3, CARD_A, CARD_F = CARD_A + 5, CARD_ID, CARD_MPP };
+enum { CARD_1, CARD_2, CARD_3, CARD_A, CARD_F = CARD_A + 5, CARD_ID, CARD_MPP, CARD_4 };
 
-static const CardSpec contact_cards[] = {
-    {"card 1", "", CARD_FIELDS(card1_fields)},
-    {"card 2", "", CARD_FIELDS(card2_fields)},
-    {"card 3", "", CARD_FIELDS(card3_fields)},
-    {"card A", "optional", CARD_FIELDS(card_a_fields)},
-    {"card B", "optional", CARD_FIELDS(card_b_fields)},
-    {"card C", "optional", CARD_FIELDS(card_c_fields)},
-    {"card D", "optional", CARD_FIELDS(card_d_fields)},
-    {"card E", "optional", CARD_FIELDS(card_e_fields)},
-    {"card F", "optional", CARD_FIELDS(card_f_fields)},
-    {"ID card", "before card 1 with ID or TITLE", CARD_FIELDS(id_fields)},
-    {"MPP card", "after the ID card with MPP; a second one that begins with & is skipped", CARD_FIELDS(mpp1_fields)},
-};
+#define CONTACT_CARDS                                                                                                  \
+    {"card 1", "", CARD_FIELDS(card1_fields)}, {"card 2", "", CARD_FIELDS(card2_fields)},                              \
+        {"card 3", "", CARD_FIELDS(card3_fields)}, {"card A", "optional", CARD_FIELDS(card_a_fields)},                 \
+        {"card B", "optional", CARD_FIELDS(card_b_fields)}, {"card C", "optional", CARD_FIELDS(card_c_fields)},        \
+        {"card D", "optional", CARD_FIELDS(card_d_fields)}, {"card E", "optional", CARD_FIELDS(card_e_fields)},        \
+        {"card F", "optional", CARD_FIELDS(card_f_fields)},                                                            \
+        {"ID card", "before card 1 with ID or TITLE", CARD_FIELDS(id_fields)},                                         \
+    {                                                                                                                  \
+        "MPP card", "after the ID card with MPP; a second one that begins with & is skipped", CARD_FIELDS(mpp1_fields) \
+    }
+
+static const CardSpec contact_cards[] = {CONTACT_CARDS};
+static const CardSpec eroding_cards[] = {CONTACT_CARDS, {"card 4", "after card 3", CARD_FIELDS(card4_fields)}};
 
 /* Ids get the offset of what they name. */
 static int scale_side(const KeywordRead *read, int id, int type)
@@ -182,6 +187,7 @@ static int read_cards(KeywordRead *read, ContactCard *card)
     status |= keyword_card(read, CARD_1, card, true, &c->card1);
     status |= keyword_card(read, CARD_2, card, true, &c->card2);
     status |= keyword_card(read, CARD_3, card, true, &c->card3);
+    if (read->spec->cards == eroding_cards) status |= keyword_card(read, CARD_4, card, true, NULL);
     for (int i = CARD_A; i <= CARD_F && !status; i++) {
         Source *place = i == CARD_A ? &c->card_a : NULL;
         if (keyword_card(read, i, card, false, place) && card_left(read->cards)) status = -1;
@@ -313,11 +319,13 @@ static void read_control_contact(KeywordRead *read)
         keyword_error(read, control->contact.source, "IGNORE = %d (card 4) is not known; use 0, 1 or 2", card4.ignore);
 }
 
-#define CONTACT(keyword, reader, text)                                                                                 \
+#define CONTACT_OF(keyword, list, reader, text)                                                                        \
     {                                                                                                                  \
-        .name = keyword, .options = {"ID", "TITLE", "MPP"}, .cards = contact_cards,                                    \
-        .card_count = (int)(sizeof contact_cards / sizeof *contact_cards), .read = reader, .remark = text              \
+        .name = keyword, .options = {"ID", "TITLE", "MPP"}, .cards = list,                                             \
+        .card_count = (int)(sizeof(list) / sizeof *(list)), .read = reader, .remark = text                             \
     }
+#define CONTACT(keyword, reader, text) CONTACT_OF(keyword, contact_cards, reader, text)
+#define ERODING(keyword, reader) CONTACT_OF(keyword, eroding_cards, reader, eroding_remark)
 static const char self_remark[] = "All nodes of the surface meet all its segments, from both sides; its free and sharp "
                                   "edges meet all its edges. SSID "
                                   "= 0: all parts. SOFT 0, 1 and 2 are one stable penalty (theory, Contact). Initial "
@@ -328,6 +336,8 @@ static const char pair_remark[] =
 static const char one_remark[] = "The nodes of surface A meet the segments of surface B, from both sides.";
 static const char old_remark[] =
     "As its AUTOMATIC form, but without thickness unless SHLTHK (here or in *CONTROL_CONTACT) is 1 or 2.";
+static const char eroding_remark[] =
+    "As its AUTOMATIC form, which leaves out shells that have eroded, too. Card 4 is about solids.";
 static const KeywordSpec specs[] = {
     CONTACT("*CONTACT_AIRBAG_SINGLE_SURFACE", read_self, self_remark),
     CONTACT("*CONTACT_AUTOMATIC_SINGLE_SURFACE", read_self, self_remark),
@@ -339,6 +349,9 @@ static const KeywordSpec specs[] = {
     CONTACT("*CONTACT_SURFACE_TO_SURFACE", read_two_way, old_remark),
     CONTACT("*CONTACT_ONE_WAY_SURFACE_TO_SURFACE", read_one_way, old_remark),
     CONTACT("*CONTACT_SINGLE_SURFACE", read_self, self_remark),
+    ERODING("*CONTACT_ERODING_SINGLE_SURFACE", read_self),
+    ERODING("*CONTACT_ERODING_SURFACE_TO_SURFACE", read_automatic_two_way),
+    ERODING("*CONTACT_ERODING_NODES_TO_SURFACE", read_automatic_nodes),
     {.name = "*CONTROL_CONTACT",
      .cards = control_cards,
      .card_count = (int)(sizeof control_cards / sizeof *control_cards),

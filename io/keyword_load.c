@@ -1,4 +1,5 @@
 /* *LOAD_NODE, *LOAD_SEGMENT, *LOAD_BODY, *LOAD_GRAVITY_PART. */
+#include <math.h>
 #include <string.h>
 
 #include "io/keyword_table.h"
@@ -131,17 +132,44 @@ static const FieldSpec body_fields[] = {
     CARD_REAL("YC", yc, LISTED, LENGTH),           CARD_REAL("ZC", zc, LISTED, LENGTH),
     CARD_INT("CID", cid, USED, ID_DEFINE),
 };
+static const FieldSpec vector_fields[] = {
+    CARD_REAL("V1", vector[0], USED, NONE),
+    CARD_REAL("V2", vector[1], USED, NONE),
+    CARD_REAL("V3", vector[2], USED, NONE),
+};
 #undef AT
 
 static const CardSpec body_cards[] = {{"card 1", "", CARD_FIELDS(body_fields)}};
+static const CardSpec body_vector_cards[] = {{"card 1", "", CARD_FIELDS(body_fields)},
+                                             {"card 2", "", CARD_FIELDS(vector_fields)}};
+
+/* The manual does not say whether V is made one of length 1 or its length counts: only then both are the same. */
+static bool check_vector(const KeywordRead *read, BodyLoadDefinition *card, Source source)
+{
+    double *v = card->vector, square = 0.0;
+    for (int k = 0; k < 3; k++) square += v[k] * v[k];
+    if (!(fabs(square - 1.0) < 2e-3)) {
+        keyword_error(read, source,
+                      "V = (%g, %g, %g) has the length %g; give a vector of length 1 and the size of the load by SF",
+                      v[0], v[1], v[2], sqrt(square));
+        return false;
+    }
+    for (int k = 0; k < 3; k++) v[k] /= sqrt(square);
+    keyword_transform_vector(read, v);
+    return true;
+}
 
 static void read_load_body(KeywordRead *read)
 {
-    BodyLoadDefinition card = {.axis = read->spec->name[strlen("*LOAD_BODY_")] - 'X'};
+    const bool along_vector = read->spec->card_count == 2;
+    BodyLoadDefinition card = {.axis = along_vector ? 3 : read->spec->name[strlen("*LOAD_BODY_")] - 'X'};
+    Source source;
     if (keyword_card(read, 0, &card, true, &card.source)) return;
+    if (along_vector && keyword_card(read, 1, &card, true, &source)) return;
     keyword_finish(read);
+    if (along_vector && !check_vector(read, &card, source)) return;
     for (size_t k = 0; k < read->definitions->body_loads.count; k++)
-        if (read->definitions->body_loads.items[k].axis == card.axis)
+        if (!along_vector && read->definitions->body_loads.items[k].axis == card.axis)
             keyword_warning(read, card.source, "this keyword is given again (before in line %d): both act together",
                             read->definitions->body_loads.items[k].source.line);
     BodyLoadDefinition *load = KEYWORD_APPEND(read, read->definitions->body_loads);
@@ -224,6 +252,12 @@ static const KeywordSpec specs[] = {
     BODY_LOAD("X"),
     BODY_LOAD("Y"),
     BODY_LOAD("Z"),
+    {.name = "*LOAD_BODY_VECTOR",
+     .cards = body_vector_cards,
+     .card_count = 2,
+     .read = read_load_body,
+     .remark = "As *LOAD_BODY_X, along the vector V (in the system CID), whose length must be 1; several act together. "
+               "The weight of *AIRBAG_FLUID_AND_GAS comes from X, Y and Z alone."},
     {.name = "*LOAD_GRAVITY_PART",
      .cards = gravity_part_cards,
      .card_count = 1,

@@ -11,8 +11,6 @@ static const KeywordSpec specs[] = {
             "there are no gas particles; write the bag's gas with uniform pressure, e.g. *AIRBAG_HYBRID"),
     REFUSED("*AIRBAG_ALE", "there is no flow field; write the bag's gas with uniform pressure, e.g. *AIRBAG_HYBRID"),
     REFUSED("*AIRBAG_CPG", "there is no flow field; write the bag's gas with uniform pressure, e.g. *AIRBAG_HYBRID"),
-    REFUSED("*CONTACT_ERODING", "only its name and card 4 differ: write *CONTACT_AUTOMATIC_SINGLE_SURFACE or "
-                                "_SURFACE_TO_SURFACE without card 4; they leave out shells that have eroded"),
     REFUSED("*CONTACT_INTERIOR", "it keeps soft solids from turning inside out, and there are no deformable solids"),
     REFUSED("*CONTACT_RIGID", "rigid bodies meet by *CONTACT_AUTOMATIC_SURFACE_TO_SURFACE, with a stable penalty in "
                               "place of force curves"),
@@ -30,7 +28,6 @@ static const KeywordSpec specs[] = {
     REFUSED("*INITIAL_FOAM_REFERENCE_GEOMETRY",
             "it is for solids and rubber; shells of *MAT_FABRIC take *AIRBAG_REFERENCE_GEOMETRY"),
     REFUSED("*LOAD_BODY_PARTS", "body loads act on the whole model; *LOAD_GRAVITY_PART acts on parts"),
-    REFUSED("*LOAD_BODY_VECTOR", "write the components of the vector as *LOAD_BODY_X, _Y and _Z"),
     REFUSED("*LOAD_THERMAL", "fabric has no thermal strain"),
     REFUSED("*MAT_ADD_THERMAL_EXPANSION", "fabric has no thermal strain"),
 };

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "solver/deck_index.h"
+#include "solver/vector3.h"
 
 bool class_report_full(const char *keyword, Source source, Diagnostics *diagnostics)
 {
@@ -17,9 +18,9 @@ bool class_report_full(const char *keyword, Source source, Diagnostics *diagnost
 static int add_body_load(const MotionInput *input, const BodyLoadDefinition *card, BodyClass *everywhere,
                          Diagnostics *diagnostics)
 {
-    static const char *const keywords[] = {"*LOAD_BODY_X", "*LOAD_BODY_Y", "*LOAD_BODY_Z"};
+    static const char *const keywords[] = {"*LOAD_BODY_X", "*LOAD_BODY_Y", "*LOAD_BODY_Z", "*LOAD_BODY_VECTOR"};
     const char *keyword = keywords[card->axis];
-    double axes[9];
+    double axes[9], direction[3];
     int id = card->lcid;
     if (input->relaxation_phase && card->lciddr != 0) id = card->lciddr;
     if (id == 0 && card->lciddr != 0 && !input->relaxed) {
@@ -32,9 +33,11 @@ static int add_body_load(const MotionInput *input, const BodyLoadDefinition *car
                     ? deck_index_curve(input->index, id, "LCIDDR", card->source, keyword, diagnostics)
                     : motion_find_curve(input, id, "LCID", card->source, keyword, diagnostics);
     if (motion_find_axes(input, card->cid, card->source, keyword, axes, diagnostics) || curve == -1) return -1;
+    const double unit[3] = {card->axis == 0, card->axis == 1, card->axis == 2};
+    matrix3_apply_transposed(axes, card->axis < 3 ? unit : card->vector, direction);
     bool fits = true;
     for (int i = 0; i < 3 && curve >= 0; i++) /* a base acceleration: the nodes feel its opposite */
-        fits = body_class_add_gravity(everywhere, i, curve, -card->sf * axes[3 * card->axis + i]) && fits;
+        fits = body_class_add_gravity(everywhere, i, curve, -card->sf * direction[i]) && fits;
     return fits || class_report_full(keyword, card->source, diagnostics) ? 0 : -1;
 }
 

@@ -59,8 +59,9 @@ typedef struct SegmentLoadDefinition { /* *LOAD_SEGMENT / _SET (_ID): pressure f
     Source source;
 } SegmentLoadDefinition;
 
-typedef struct BodyLoadDefinition { /* *LOAD_BODY_X/Y/Z */
-    int axis;                       /* 0, 1, 2 */
+typedef struct BodyLoadDefinition { /* *LOAD_BODY_X/Y/Z/VECTOR */
+    int axis;                       /* 0, 1, 2; 3: along the vector, of length 1 */
+    double vector[3];
     int lcid, lciddr, cid;
     double sf, xc, yc, zc;
     Source source;

@@ -118,8 +118,27 @@ static void test_families(void **state)
     close_case(&c);
     assert_one_error(CONTACT("TIED_NODES_TO_SURFACE", "1,2,3,3\n\n\n"), 1, "*CONTACT_TIED_NODES_TO_SURFACE",
                      "nothing is tied");
-    assert_one_error(CONTACT("ERODING_SINGLE_SURFACE", "1,0,2\n\n\n1\n"), 1, "*CONTACT_ERODING_SINGLE_SURFACE",
-                     "without card 4");
+}
+
+/* The forms with card 4 are the automatic ones; the optional cards come after it. */
+static void test_eroding_forms(void **state)
+{
+    (void)state;
+    KeywordCase c = read_fine(CONTACT("ERODING_SINGLE_SURFACE_ID", "4\n1,0,2\n\n\n1,1,0\n2,.2\n")
+                                  CONTACT("ERODING_SURFACE_TO_SURFACE", "1,2,3,3\n.3\n\n,1,1\n")
+                                      CONTACT("ERODING_NODES_TO_SURFACE", "1,2,4,3\n\n,,1e-4\n\n1,.3\n,1\n"));
+    const ContactDefinition *k = c.d.contacts.items;
+    assert_int_equal(c.d.contacts.count, 3);
+    assert_int_equal(k[0].kind, CONTACT_SELF);
+    assert_int_equal(k[0].id, 4);
+    assert_int_equal(k[0].soft, 2);
+    assert_true(k[0].sofscl == 0.2);
+    assert_int_equal(k[1].kind, CONTACT_TWO_WAY);
+    assert_true(k[1].automatic && k[1].fs == 0.3 && k[1].soft == 0);
+    assert_int_equal(k[2].kind, CONTACT_NODES_TO_SURFACE);
+    assert_true(k[2].automatic && k[2].sst == 1e-4 && k[2].soft == 1 && k[2].sofscl == 0.3 && k[2].thkopt == 1);
+    assert_int_equal(count_notes(&c, "EROSOP"), 2);
+    close_case(&c);
 }
 
 static const char model_head[] = "*CONTROL_TERMINATION\n1e-4\n"
@@ -265,9 +284,10 @@ static void test_crossed_sheets(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cards),    cmocka_unit_test(test_wrong_fields),  cmocka_unit_test(test_wrong_surfaces),
-        cmocka_unit_test(test_one_list), cmocka_unit_test(test_inspection),    cmocka_unit_test(test_times_and_penmax),
-        cmocka_unit_test(test_families), cmocka_unit_test(test_cut_thickness), cmocka_unit_test(test_crossed_sheets)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_eroding_forms),    cmocka_unit_test(test_cards),
+                                       cmocka_unit_test(test_wrong_fields),     cmocka_unit_test(test_wrong_surfaces),
+                                       cmocka_unit_test(test_one_list),         cmocka_unit_test(test_inspection),
+                                       cmocka_unit_test(test_times_and_penmax), cmocka_unit_test(test_families),
+                                       cmocka_unit_test(test_cut_thickness),    cmocka_unit_test(test_crossed_sheets)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -94,7 +94,7 @@ static void test_curves_and_sets(void **state)
 static void test_unknown_keywords(void **state)
 {
     (void)state;
-    assert_one_error("*CONTACT_ERODING_SINGLE_SURFACE\n         1\n", 1, "*CONTACT_ERODING_SINGLE_SURFACE",
+    assert_one_error("*CONTACT_RIGID_NODES_TO_RIGID_BODY\n         1\n", 1, "*CONTACT_RIGID_NODES_TO_RIGID_BODY",
                      "is not read by billow 0.1.0");
     assert_one_error("*NDOE\n         1\n", 1, "*NDOE", "did you mean *NODE?");
     assert_one_error("*PART_CONTACT\nx\n         1\n", 1, "*PART_CONTACT", "the option CONTACT of *PART is not read");

@@ -80,6 +80,46 @@ static void loose_masses_fall(void **state)
     verify_free(&run);
 }
 
+static void expect(const char *cards, int errors, const char *const *texts, int count)
+{
+    Scene scene = {0};
+    VerifyRun run;
+    begin(&scene, 1);
+    scene_print(&scene.deck, "%s", cards);
+    verify_scene_build(&run, &scene, errors);
+    for (int i = 0; i < count; i++)
+        if (!verify_message(&run.diagnostics, SEVERITY_ERROR, texts[i])) {
+            diagnostics_print(&run.diagnostics, SEVERITY_WARNING, stderr);
+            fail_msg("no error with '%s'", texts[i]);
+        }
+    verify_free(&run);
+}
+
+/* The vector's load is that of its components on the axes, all masses feel it; in a local system its x is z. */
+static void vectors_accelerate_all(void **state)
+{
+    (void)state;
+    static const char *const loads[] = {"*LOAD_BODY_VECTOR\n6,10\n0,.6,-.8\n",
+                                        "*LOAD_BODY_Y\n6,6\n*LOAD_BODY_Z\n6,-8\n",
+                                        "*DEFINE_COORDINATE_VECTOR\n4,0,0,1,1,0,0\n*LOAD_BODY_VECTOR\n"
+                                        "6,10,,,,,4\n-.8,0,.6\n"};
+    for (int i = 0; i < 3; i++) {
+        Scene scene = {0};
+        VerifyRun run;
+        begin(&scene, 1);
+        scene_print(&scene.deck, "%s", loads[i]);
+        run_cards(&run, &scene, "*ELEMENT_MASS\n7,6,2.5\n");
+        for (int node = 0; node < 6; node += 5) {
+            verify_near("speed x", run.v[3 * node], 0, 1e-12);
+            verify_close("speed y", run.v[3 * node + 1], -6, 1e-9);
+            verify_close("speed z", run.v[3 * node + 2], 8, 1e-9);
+        }
+        verify_free(&run);
+    }
+    static const char *const long_vector[] = {"V = (0, 3, 4) has the length 5"};
+    expect("*LOAD_BODY_VECTOR\n6,10\n0,3,4\n", 1, long_vector, 1);
+}
+
 typedef struct Sums {
     double mass, momentum[3], part_momentum[3], kinetic;
 } Sums;
@@ -270,21 +310,6 @@ static void masses_meet_surfaces(void **state)
     verify_free(&run);
 }
 
-static void expect(const char *cards, int errors, const char *const *texts, int count)
-{
-    Scene scene = {0};
-    VerifyRun run;
-    begin(&scene, 1);
-    scene_print(&scene.deck, "%s", cards);
-    verify_scene_build(&run, &scene, errors);
-    for (int i = 0; i < count; i++)
-        if (!verify_message(&run.diagnostics, SEVERITY_ERROR, texts[i])) {
-            diagnostics_print(&run.diagnostics, SEVERITY_WARNING, stderr);
-            fail_msg("no error with '%s'", texts[i]);
-        }
-    verify_free(&run);
-}
-
 static void bad_masses_are_told(void **state)
 {
     (void)state;
@@ -311,15 +336,11 @@ static void bad_masses_are_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(masses_swing_on_springs),
-        cmocka_unit_test(loose_masses_fall),
-        cmocka_unit_test(masses_throw_membranes),
-        cmocka_unit_test(masses_count_for_bodies),
-        cmocka_unit_test(gravity_of_parts_pulls_their_masses),
-        cmocka_unit_test(masses_are_shared),
-        cmocka_unit_test(added_mass_lengthens_the_step),
-        cmocka_unit_test(masses_meet_surfaces),
-        cmocka_unit_test(bad_masses_are_told),
+        cmocka_unit_test(masses_swing_on_springs), cmocka_unit_test(loose_masses_fall),
+        cmocka_unit_test(vectors_accelerate_all),  cmocka_unit_test(masses_throw_membranes),
+        cmocka_unit_test(masses_count_for_bodies), cmocka_unit_test(gravity_of_parts_pulls_their_masses),
+        cmocka_unit_test(masses_are_shared),       cmocka_unit_test(added_mass_lengthens_the_step),
+        cmocka_unit_test(masses_meet_surfaces),    cmocka_unit_test(bad_masses_are_told),
     };
     return cmocka_run_group_tests_name("masses", tests, NULL, NULL);
 }
