@@ -45,13 +45,11 @@ static void read_masses(KeywordRead *read, bool is_set)
         MassDefinition card = {.is_set = is_set};
         if (keyword_card(read, 0, &card, true, &card.source)) continue;
         if (!keyword_check_id(read, card.target, is_set ? "NSID" : "NID", card.source)) continue;
-        if (!(card.mass > 0.0)) {
-            keyword_error(read, card.source,
-                          "MASS = %g of mass element %d must be positive; give it, or leave the "
-                          "element out",
-                          card.mass, card.id);
-            continue;
-        }
+        if (card.mass < 0.0)
+            keyword_error(read, card.source, "MASS = %g of mass element %d is negative", card.mass, card.id);
+        if (card.mass == 0.0)
+            keyword_warning(read, card.source, "mass element %d has no effect: its MASS is 0", card.id);
+        if (!(card.mass > 0.0)) continue;
         MassDefinition *mass = KEYWORD_APPEND(read, read->definitions->masses);
         if (mass) *mass = card;
     }

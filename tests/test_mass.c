@@ -313,8 +313,7 @@ static void masses_meet_surfaces(void **state)
 static void bad_masses_are_told(void **state)
 {
     (void)state;
-    static const char *const read[] = {"MASS = 0 of mass element 1",
-                                       "MASS = -2 of mass element 2",
+    static const char *const read[] = {"MASS = -2 of mass element 2 is negative",
                                        "NID is 0",
                                        "ADDMASS = -1 must not be negative",
                                        "FINMASS = -1",
@@ -325,12 +324,24 @@ static void bad_masses_are_told(void **state)
     static const char *const build[] = {"99",       "no set 98",
                                         "PID = 97", "part 5 has no shells and no solids of a density",
                                         "PID = 96", "FINMASS = 4 of part 1 is not more than the mass 4"};
-    expect("*ELEMENT_MASS\n1,5\n2,5,-2\n3,0,1\n*ELEMENT_MASS_PART\n1,-1\n1,0,-1\n1,1,2\n1\n1,1,0,6\n"
+    expect("*ELEMENT_MASS\n2,5,-2\n3,0,1\n*ELEMENT_MASS_PART\n1,-1\n1,0,-1\n1,1,2\n1\n1,1,0,6\n"
            "*SET_PART_LIST\n8\n1\n*ELEMENT_MASS_PART_SET\n8,1,0,0,3\n",
-           9, read, 9);
+           8, read, 8);
     expect("*ELEMENT_MASS\n1,99,1\n2,5,1,97\n*ELEMENT_MASS_NODE_SET\n3,98,1\n"
            "*ELEMENT_MASS_PART\n5,1\n96,1\n1,0,4\n",
            6, build, 6);
+}
+
+static void no_mass_is_told(void **state)
+{
+    (void)state;
+    Scene scene = {0};
+    VerifyRun run;
+    begin(&scene, 1);
+    scene_print(&scene.deck, "*ELEMENT_MASS\n1,5\n");
+    verify_scene_build(&run, &scene, 0);
+    assert_true(verify_message(&run.diagnostics, SEVERITY_WARNING, "mass element 1 has no effect: its MASS is 0"));
+    verify_free(&run);
 }
 
 int main(void)
@@ -341,6 +352,7 @@ int main(void)
         cmocka_unit_test(masses_count_for_bodies), cmocka_unit_test(gravity_of_parts_pulls_their_masses),
         cmocka_unit_test(masses_are_shared),       cmocka_unit_test(added_mass_lengthens_the_step),
         cmocka_unit_test(masses_meet_surfaces),    cmocka_unit_test(bad_masses_are_told),
+        cmocka_unit_test(no_mass_is_told),
     };
     return cmocka_run_group_tests_name("masses", tests, NULL, NULL);
 }
