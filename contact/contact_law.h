@@ -18,16 +18,11 @@ typedef struct ContactMasses {
     double stiff;     /* B, the least m R/S of them: k dt^2 must not be larger (eq. C4) */
 } ContactMasses;
 
-/* One over the (w dt)^2 that contact in the direction d may add at a node (eq. C12). */
-static inline double contact_inverse_room(const double *h, const double *d)
-{
-    return h[0] * d[0] * d[0] + h[1] * d[1] * d[1] + h[2] * d[2] * d[2] +
-           2.0 * (h[3] * d[0] * d[1] + h[4] * d[1] * d[2] + h[5] * d[2] * d[0]);
-}
-
+/* (w dt)^2 that contact in the direction d may add at a node of this ContactNode.room (eq. C12). */
 static inline double contact_room(const double *h, const double *d)
 {
-    return 1.0 / contact_inverse_room(h, d);
+    return 1.0 / (h[0] * d[0] * d[0] + h[1] * d[1] * d[1] + h[2] * d[2] * d[2] +
+                  2.0 * (h[3] * d[0] * d[1] + h[4] * d[1] * d[2] + h[5] * d[2] * d[0]));
 }
 
 /* A pair that was not in contact (eq. C8). What it is closer by than it can have come in the last step, it was before.

@@ -1,9 +1,6 @@
 /* Pairs to lanes and back: contact/push_kernels.c has the law. */
 #include "contact/contact_push.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "solver/memory.h"
 
 /* Nodes whose accelerations are formed together. */
